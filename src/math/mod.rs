@@ -1,0 +1,2 @@
+//! Number formats and the arithmetic on them.
+pub mod power;

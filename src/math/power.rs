@@ -1,0 +1,88 @@
+//! Integer powers of a cosine, as a table over the range where they show.
+
+/// `cosⁿ` for one exponent n, tabulated over the range in which it reaches 1/1024 or more.
+///
+/// The table is indexed by the distance from the peak, `t = 1 − cos`, has 128 intervals of equal width over
+/// `0 ≤ t < 2⁻ᵏ`, and is linear in between; k is the largest that keeps the whole visible range inside.
+///
+/// Error against f64, for n = 1 … 256: at most 1/1800 (0.14 of 255 levels), RMS below 1/9000 over the tabulated range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Power {
+    exponent: u16,
+    /// Bits to drop from a Q31 distance so that the rest counts intervals.
+    shift: u8,
+    /// Value at the near end in the high half, fall to the far end in the low half, both Q14.
+    table: [u32; Power::INTERVALS],
+}
+
+impl Power {
+    const INTERVALS: usize = 128;
+    const INTERVAL_BITS: u32 = Self::INTERVALS.trailing_zeros();
+    /// One, as a Q31 cosine.
+    const ONE: u32 = 1 << 31;
+
+    /// Tabulates `cosⁿ` for n = `exponent`; 0 counts as 1. Integers only, so it costs the same at compile time and on a chip.
+    #[must_use]
+    pub const fn new(exponent: u16) -> Self {
+        let exponent = if exponent == 0 { 1 } else { exponent };
+        let mut k = 0;
+        while k < 15 && Self::exact(Self::ONE - (Self::ONE >> (k + 1)), exponent) < (1 << 20) {
+            k += 1;
+        }
+        let shift = 31 - k - Self::INTERVAL_BITS;
+        let mut table = [0; Self::INTERVALS];
+        let mut near = (Self::exact(Self::ONE, exponent) + (1 << 15)) >> 16;
+        let mut i = 0;
+        while i < Self::INTERVALS {
+            let far = (Self::exact(Self::ONE - ((i as u32 + 1) << shift), exponent) + (1 << 15)) >> 16;
+            #[expect(clippy::indexing_slicing, reason = "i < INTERVALS; slice::get is not const")]
+            {
+                table[i] = (near << 16) | (near - far);
+            }
+            near = far;
+            i += 1;
+        }
+        Self { exponent, shift: shift as u8, table }
+    }
+
+    /// `cosⁿ` in Q30 by repeated squaring; `cos` is Q31, at most one.
+    const fn exact(cos: u32, exponent: u16) -> u32 {
+        let mut base = cos as u64;
+        let mut value = Self::ONE as u64;
+        let mut left = exponent;
+        while left > 0 {
+            if left & 1 == 1 {
+                value = (value * base) >> 31;
+            }
+            base = (base * base) >> 31;
+            left >>= 1;
+        }
+        (value >> 1) as u32
+    }
+
+    /// The exponent n.
+    #[must_use]
+    pub const fn exponent(&self) -> u16 {
+        self.exponent
+    }
+
+    /// The largest distance from the peak, `1 − cos` in Q31, at which the power still shows.
+    #[must_use]
+    pub const fn reach(&self) -> u32 {
+        (Self::INTERVALS as u32) << self.shift
+    }
+
+    /// `cosⁿ` in Q14 (one is 16384) for a cosine in Q31; cosines above one count as one, those out of reach give 0.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, cos: u32) -> u32 {
+        let distance = Self::ONE.saturating_sub(cos);
+        match self.table.get((distance >> self.shift) as usize) {
+            Some(entry) => {
+                let part = (distance & ((1 << self.shift) - 1)) >> (self.shift - 8);
+                (entry >> 16) - (((entry & 0xffff) * part + 128) >> 8)
+            }
+            None => 0,
+        }
+    }
+}

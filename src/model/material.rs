@@ -1,0 +1,139 @@
+//! What a surface looks like: colours, reflection coefficients, exponent.
+
+use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
+
+use crate::math::power::Power;
+
+/// A colour as three linear factors in Q15: 0 is none, 32768 is all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Color(pub [u16; 3]);
+
+impl Color {
+    /// No light at all.
+    pub const BLACK: Self = Self([0; 3]);
+    /// All of the light.
+    pub const WHITE: Self = Self([1 << 15; 3]);
+
+    /// Red, green and blue from 0.0 to 1.0; what lies outside is clamped, NaN is 0.
+    #[must_use]
+    pub const fn rgb(red: f32, green: f32, blue: f32) -> Self {
+        Self([factor(red), factor(green), factor(blue)])
+    }
+}
+
+impl From<Rgb888> for Color {
+    fn from(color: Rgb888) -> Self {
+        let widen = |level: u8| ((u32::from(level) * 32768 + 127) / 255) as u16;
+        Self([widen(color.r()), widen(color.g()), widen(color.b())])
+    }
+}
+
+/// 0.0 … 1.0 to Q15, rounded, clamped.
+const fn factor(value: f32) -> u16 {
+    let scaled = (value * 32768.0 + 0.5) as u16;
+    if scaled > 1 << 15 {
+        1 << 15
+    } else {
+        scaled
+    }
+}
+
+/// A surface under Phong's illumination model (*Faster Phong Shading*, Eq. 1):
+/// `ambient·base + diffuse·base·(n·l) + specular·highlight·(n·h)ⁿ`, both products clamped at 0, the sum saturating.
+///
+/// Built in a `const` or `static`, so that it lives in flash together with the table of its power.
+///
+/// ```
+/// use beamshade::{Color, Material};
+///
+/// static COPPER: Material = Material::new(Color::rgb(0.85, 0.45, 0.20)).specular(0.5).exponent(32);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Material {
+    pub(crate) base: Color,
+    pub(crate) highlight: Color,
+    /// Coefficients of reflection, Q15.
+    pub(crate) ambient: u16,
+    pub(crate) diffuse: u16,
+    pub(crate) specular: u16,
+    pub(crate) double_sided: bool,
+    pub(crate) power: Power,
+}
+
+impl Material {
+    /// A surface of that colour with ambient 0.15, diffuse 0.75, specular 0.5, exponent 32, and a white highlight.
+    #[must_use]
+    pub const fn new(base: Color) -> Self {
+        Self {
+            base,
+            highlight: Color::WHITE,
+            ambient: factor(0.15),
+            diffuse: factor(0.75),
+            specular: factor(0.5),
+            double_sided: false,
+            power: Power::new(32),
+        }
+    }
+
+    /// The same with another ambient coefficient, 0.0 to 1.0, clamped.
+    #[must_use]
+    pub const fn ambient(mut self, coefficient: f32) -> Self {
+        self.ambient = factor(coefficient);
+        self
+    }
+
+    /// The same with another diffuse coefficient, 0.0 to 1.0, clamped.
+    #[must_use]
+    pub const fn diffuse(mut self, coefficient: f32) -> Self {
+        self.diffuse = factor(coefficient);
+        self
+    }
+
+    /// The same with another specular coefficient, 0.0 to 1.0, clamped.
+    #[must_use]
+    pub const fn specular(mut self, coefficient: f32) -> Self {
+        self.specular = factor(coefficient);
+        self
+    }
+
+    /// The same with another exponent ("gloss"), 1 to 256 being useful; 0 counts as 1.
+    #[must_use]
+    pub const fn exponent(mut self, exponent: u16) -> Self {
+        self.power = Power::new(exponent);
+        self
+    }
+
+    /// The same with another colour of the highlight.
+    #[must_use]
+    pub const fn highlight(mut self, color: Color) -> Self {
+        self.highlight = color;
+        self
+    }
+
+    /// The same, seen from behind too: back faces are kept and lit by their turned normals.
+    #[must_use]
+    pub const fn double_sided(mut self) -> Self {
+        self.double_sided = true;
+        self
+    }
+
+    /// Number of 16-bit words of a material in a mesh's binary form.
+    pub const WORDS: usize = 12;
+
+    /// A material from the words of a mesh's binary form: base 3, highlight 3, ambient, diffuse, specular (all Q15),
+    /// exponent, flags (bit 0: double-sided), 0. Factors above one are clamped.
+    #[must_use]
+    pub fn from_words(words: [u16; Self::WORDS]) -> Self {
+        let [br, bg, bb, hr, hg, hb, ambient, diffuse, specular, exponent, flags, _] = words;
+        let clamp = |factor: u16| factor.min(1 << 15);
+        Self {
+            base: Color([br, bg, bb].map(clamp)),
+            highlight: Color([hr, hg, hb].map(clamp)),
+            ambient: clamp(ambient),
+            diffuse: clamp(diffuse),
+            specular: clamp(specular),
+            double_sided: flags & 1 == 1,
+            power: Power::new(exponent),
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! What the user describes: meshes and materials, poses, cameras and lights.
+
+pub mod material;
+pub mod mesh;
