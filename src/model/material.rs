@@ -57,6 +57,7 @@ pub struct Material {
     pub(crate) diffuse: u16,
     pub(crate) specular: u16,
     pub(crate) double_sided: bool,
+    pub(crate) plain: bool,
     pub(crate) power: Power,
 }
 
@@ -71,6 +72,7 @@ impl Material {
             diffuse: factor(0.75),
             specular: factor(0.5),
             double_sided: false,
+            plain: false,
             power: Power::new(32),
         }
     }
@@ -117,11 +119,18 @@ impl Material {
         self
     }
 
+    /// The same, content with the second of two shading methods; see [`ByMaterial`](crate::shade::choose::ByMaterial).
+    #[must_use]
+    pub const fn plain(mut self) -> Self {
+        self.plain = true;
+        self
+    }
+
     /// Number of 16-bit words of a material in a mesh's binary form.
     pub const WORDS: usize = 12;
 
     /// A material from the words of a mesh's binary form: base 3, highlight 3, ambient, diffuse, specular (all Q15),
-    /// exponent, flags (bit 0: double-sided), 0. Factors above one are clamped.
+    /// exponent, flags (bit 0: double-sided, bit 1: plain), 0. Factors above one are clamped.
     #[must_use]
     pub fn from_words(words: [u16; Self::WORDS]) -> Self {
         let [br, bg, bb, hr, hg, hb, ambient, diffuse, specular, exponent, flags, _] = words;
@@ -133,6 +142,7 @@ impl Material {
             diffuse: clamp(diffuse),
             specular: clamp(specular),
             double_sided: flags & 1 == 1,
+            plain: flags & 2 == 2,
             power: Power::new(exponent),
         }
     }

@@ -169,6 +169,17 @@ impl<'a> Mesh<'a> {
         Ok(Binary::read(bytes)?.materials.iter().map(|words| Material::from_words(*words)))
     }
 
+    /// The material of a triangle; none for a number that is no triangle's.
+    #[must_use]
+    pub fn material_of(&self, triangle: u16) -> Option<&'a Material> {
+        let mut end = 0;
+        let [_, material] = self.data.parts.iter().find(|[count, _]| {
+            end += u32::from(*count);
+            u32::from(triangle) < end
+        })?;
+        self.data.materials.get(usize::from(*material))
+    }
+
     /// The checked arrays.
     #[must_use]
     pub const fn data(&self) -> &MeshData<'a> {

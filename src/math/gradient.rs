@@ -1,0 +1,85 @@
+//! How values at a triangle's corners run across the screen.
+
+use embedded_graphics::geometry::Point;
+
+use super::{
+    product::{mul_high, scale},
+    reciprocal::Reciprocal,
+    screen::center,
+};
+
+/// The barycentric coordinates λ1 and λ2 of a screen triangle, as linear functions of the pixel.
+///
+/// With X and Y counted in pixels from [the anchor](Gradient::anchor), `λi = (at[i] + x[i]·X + y[i]·Y) · ρ`; the numerators
+/// have 14 bits, and one reciprocal serves all values of the triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradient {
+    /// Numerators of λ1, λ2 at the centre of the anchor's pixel.
+    pub at: [i32; 2],
+    /// Their increase for a pixel to the right.
+    pub x: [i32; 2],
+    /// Their increase for a pixel down.
+    pub y: [i32; 2],
+    /// `ρ = short · 2^(exponent − 39)`, 32768 to 65536.
+    pub short: u32,
+    /// See `short`.
+    pub exponent: i32,
+}
+
+impl Gradient {
+    /// The pixel from which X and Y are counted: the one that holds corner 0.
+    #[inline]
+    #[must_use]
+    pub const fn anchor(corner: Point) -> [i16; 2] {
+        [(corner.x >> 8) as i16, (corner.y >> 8) as i16]
+    }
+
+    /// The gradient of the triangle; none where it is smaller than half a pixel or thinner than about 1/16 pixel:
+    /// such a triangle takes its values from its centroid.
+    #[inline]
+    #[must_use]
+    pub fn new([p0, p1, p2]: [Point; 3]) -> Option<Self> {
+        let [ax, ay, bx, by] = [p1.x - p0.x, p1.y - p0.y, p2.x - p0.x, p2.y - p0.y];
+        let bits = (ax ^ ax >> 31) | (ay ^ ay >> 31) | (bx ^ bx >> 31) | (by ^ by >> 31);
+        // Thirteen bits for the largest: more precision for small triangles, no overflow for large ones.
+        let up = bits.leading_zeros() as i32 - 19;
+        let [ax, ay, bx, by] = [ax, ay, bx, by].map(|d| scale(d, up));
+        let area = ax * by - ay * bx;
+        let size = area.unsigned_abs();
+        // Sides below 1/4 pixel; twice the area below one pixel; the height over the longest side below 8 to 16 of the 13 bits.
+        if up > 7 || size < scale(1 << 16, 2 * up) as u32 || size < 1 << 16 {
+            return None;
+        }
+        let turned = area >> 31;
+        let [ax, ay, bx, by] = [ax, ay, bx, by].map(|d| (d ^ turned) - turned);
+        let inverse = Reciprocal::of(size);
+        let [x, y] = [[by, -ay], [-bx, ax]];
+        let (fx, fy) = (center(p0.x >> 8) - p0.x, center(p0.y >> 8) - p0.y);
+        let at = [(by * fx - bx * fy + 128) >> 8, (ax * fy - ay * fx + 128) >> 8];
+        Some(Self { at, x, y, short: inverse.short(), exponent: inverse.zeros + up })
+    }
+
+    /// A value that is `v0` at corner 0, `v0 + d1` and `v0 + d2` at the others: at the anchor, and its increase for a
+    /// pixel to the right and down, in units finer by 2^`finer` and wrapping.
+    ///
+    /// The differences have at most 16 bits and a sign.
+    #[inline]
+    #[must_use]
+    pub fn linear(&self, v0: i32, d1: i32, d2: i32, finer: i32) -> [i32; 3] {
+        let shift = self.exponent - 23 + finer;
+        let along = |[g1, g2]: [i32; 2]| scale(mul_high(d1 * g1 + d2 * g2, self.short), shift);
+        [v0.wrapping_shl(finer as u32).wrapping_add(along(self.at)), along(self.x), along(self.y)]
+    }
+
+    /// As [`linear`](Self::linear) for differences of up to 31 bits, in the same units; 64-bit products, for the few that need it.
+    #[must_use]
+    pub fn linear_wide(&self, v0: i32, d1: i32, d2: i32) -> [i32; 3] {
+        let (d1, d2) = (i64::from(d1), i64::from(d2));
+        let along = |[g1, g2]: [i32; 2]| {
+            let product = (d1 * i64::from(g1) + d2 * i64::from(g2)) * i64::from(self.short);
+            let right = (39 - self.exponent).clamp(1, 63);
+            ((product >> (right - 1)).wrapping_add(1) >> 1) as i32
+        };
+        [v0.wrapping_add(along(self.at)), along(self.x), along(self.y)]
+    }
+}

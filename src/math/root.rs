@@ -1,0 +1,46 @@
+//! The reciprocal square root that renormalises an interpolated normal.
+
+/// `1/√(1 − u)` for `0 ≤ u ≤ 0.75`, in Q16 (one is 65536); u is Q28, below 0 it counts as 0, beyond 0.75 as 0.75.
+///
+/// 96 intervals, linear in between. Error at most 5·10⁻⁵ relative up to u = 0.5 and 3·10⁻⁴ up to 0.75, RMS below 5·10⁻⁵.
+#[inline(always)]
+#[must_use]
+pub fn inverse_root(u: i32) -> u32 {
+    let u = (u & !(u >> 31)) as u32;
+    match TABLE.get((u >> SHIFT) as usize) {
+        Some(entry) => {
+            let part = (u >> (SHIFT - 8)) & 0xff;
+            ONE + (entry & 0xffff) + (((entry >> 16) * part) >> 8)
+        }
+        None => 2 * ONE,
+    }
+}
+
+const ONE: u32 = 1 << 16;
+const INTERVALS: usize = 96;
+/// `u >> SHIFT` counts intervals of 1/128 in a Q28 number.
+const SHIFT: u32 = 28 - 7;
+
+/// Rise over the interval in the high half; value at its start, less one, in the low half; Q16.
+static TABLE: [u32; INTERVALS] = table();
+
+#[expect(clippy::indexing_slicing, reason = "evaluated by the compiler")]
+const fn table() -> [u32; INTERVALS] {
+    let mut table = [0; INTERVALS];
+    let mut start = 0;
+    let mut i = 0;
+    while i < INTERVALS {
+        let end = less_one(i as u64 + 1);
+        table[i] = (end - start) << 16 | start;
+        start = end;
+        i += 1;
+    }
+    table
+}
+
+/// `65536/√(1 − i/128) − 65536`, rounded.
+const fn less_one(i: u64) -> u32 {
+    // (2·65536)²·128/(128 − i) is four times the square: the root to half a unit, then rounded.
+    let twice = ((1 << 34) * 128 / (128 - i)).isqrt();
+    (twice.div_ceil(2) - 65536) as u32
+}

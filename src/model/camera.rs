@@ -1,0 +1,177 @@
+//! Who looks from where onto which part of the panel.
+
+use embedded_graphics::{
+    geometry::{Point, Size},
+    primitives::Rectangle,
+};
+
+use super::{mesh::Mesh, pose::Pose, projection::Projection};
+use crate::math::{
+    angle::Turn,
+    length,
+    rotation::Rotation,
+    screen::{LARGEST, SUBPIXELS},
+    vector::Vector,
+    Length,
+};
+
+/// A pinhole camera. Unturned it looks along −z, with x to the right and y up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Camera {
+    viewport: Rectangle,
+    field_of_view: Turn,
+    near: Length,
+    position: [Length; 3],
+    /// From the camera's axes to the world's.
+    rotation: Rotation,
+    /// Of the panel, in quarters, counter-clockwise.
+    quarters: u8,
+}
+
+impl Camera {
+    /// A camera for a picture of that size, 1024×1024 at most (larger is clamped), at the panel's top left corner;
+    /// 40° of vertical field of view, 3 away from the origin on the z axis, near plane at 0.1.
+    #[must_use]
+    pub const fn new(size: Size) -> Self {
+        Self {
+            viewport: Rectangle::new(Point::zero(), size),
+            field_of_view: Turn::degrees(40),
+            near: length(0.1),
+            position: [Length::ZERO, Length::ZERO, length(3.0)],
+            rotation: Rotation::NONE,
+            quarters: 0,
+        }
+    }
+
+    /// The same with its picture elsewhere on a larger panel.
+    #[must_use]
+    pub const fn placed_at(mut self, top_left: Point) -> Self {
+        self.viewport.top_left = top_left;
+        self
+    }
+
+    /// The same with another vertical field of view, between 2° and 170°; what lies outside is clamped.
+    #[must_use]
+    pub const fn field_of_view(mut self, angle: Turn) -> Self {
+        let (least, most) = (Turn::degrees(2), Turn::degrees(170));
+        self.field_of_view = if angle.0 < least.0 {
+            least
+        } else if angle.0 > most.0 {
+            most
+        } else {
+            angle
+        };
+        self
+    }
+
+    /// The same at (0, 0, distance).
+    #[must_use]
+    pub const fn at_distance(self, distance: f32) -> Self {
+        self.at([0.0, 0.0, distance])
+    }
+
+    /// The same at another place.
+    #[must_use]
+    pub const fn at(mut self, [x, y, z]: [f32; 3]) -> Self {
+        self.position = [length(x), length(y), length(z)];
+        self
+    }
+
+    /// The same turned: `rotation` takes the camera's axes to the world's.
+    #[must_use]
+    pub const fn turned(mut self, rotation: Rotation) -> Self {
+        self.rotation = rotation;
+        self
+    }
+
+    /// The same at `eye`, turned to look at `target` with y upright.
+    ///
+    /// A convenience in `f32` by approximations good to about 0.1°: for exact pictures use [`at`](Self::at) and
+    /// [`turned`](Self::turned).
+    #[must_use]
+    pub fn looking_at(self, eye: [f32; 3], target: [f32; 3]) -> Self {
+        use micromath::F32Ext;
+        let [x, y, z] = [eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]];
+        let yaw = F32Ext::atan2(x, z);
+        let pitch = F32Ext::atan2(y, F32Ext::sqrt(x * x + z * z));
+        self.at(eye).turned(Rotation::y(Turn::radians(yaw)) * Rotation::x(Turn::radians(-pitch)))
+    }
+
+    /// The same with another near plane, 1/1024 to 512 before the eye; what lies outside is clamped.
+    #[must_use]
+    pub const fn near(mut self, distance: f32) -> Self {
+        let bits = length(distance).to_bits();
+        let (least, most) = (1 << 6, 512 << 16);
+        self.near = Length::from_bits(if bits < least {
+            least
+        } else if bits > most {
+            most
+        } else {
+            bits
+        });
+        self
+    }
+
+    /// The same for a panel that is mounted turned by so many quarters counter-clockwise; the size stays that of the rows
+    /// as the panel takes them.
+    #[must_use]
+    pub const fn panel_turned(mut self, quarters: u8) -> Self {
+        self.quarters = quarters & 3;
+        self
+    }
+
+    /// Where the picture lies on the panel.
+    #[must_use]
+    pub fn viewport(&self) -> Rectangle {
+        let size = self.viewport.size.component_min(Size::new(LARGEST, LARGEST));
+        Rectangle::new(self.viewport.top_left, size)
+    }
+
+    /// The focal length in subpixels: that which makes the field of view span the height as the viewer sees it.
+    #[must_use]
+    pub fn focal(&self) -> u32 {
+        let size = self.viewport().size;
+        let height = if self.quarters & 1 == 0 { size.height } else { size.width };
+        let (sin, cos) = self.field_of_view.half().sin_cos();
+        let half_height = i64::from(height) * i64::from(SUBPIXELS) / 2;
+        // 1° to 85°: the sine is positive. The largest focal length, 29 heights, fits 23 bits.
+        let sin = i64::from(sin.max(1));
+        ((half_height * i64::from(cos) + sin / 2).checked_div(sin).unwrap_or(1)).max(1) as u32
+    }
+
+    /// The unit vector to the viewer at infinity, in the world.
+    #[must_use]
+    pub fn viewer(&self) -> Vector {
+        self.rotation.turn(Vector([0, 0, 1 << 30]))
+    }
+
+    /// The way from the positions of that mesh in that pose to the screen.
+    #[must_use]
+    pub fn project(&self, mesh: &Mesh<'_>, pose: &Pose) -> Projection {
+        // The eye's axes: right, down, forward.
+        let to_eye = self.panel() * self.rotation.inverse();
+        let apart = |i: usize| {
+            let from = self.position.get(i).map_or(0, |p| i64::from(p.to_bits()));
+            pose.position.get(i).map_or(0, |p| i64::from(p.to_bits())) - from
+        };
+        Projection::new(
+            to_eye * pose.rotation,
+            i64::from(pose.scale.to_bits()).max(0) * i64::from(mesh.data.extent.to_bits()),
+            to_eye.0.map(|row| {
+                let [x, y, z] = row.0.map(i64::from);
+                // Q30 · Q16 to Q20.
+                (x * apart(0) + y * apart(1) + z * apart(2)) >> 26
+            }),
+            self.near,
+            self.focal(),
+            self.viewport().size,
+        )
+    }
+
+    /// From the camera's axes (right, up, back) to the panel's (right, down, forward).
+    fn panel(&self) -> Rotation {
+        let half_turn = Rotation([Vector([1 << 30, 0, 0]), Vector([0, -(1 << 30), 0]), Vector([0, 0, -(1 << 30)])]);
+        let quarter = Turn(u32::from(self.quarters) << 30);
+        Rotation::z(quarter) * half_turn
+    }
+}

@@ -1,0 +1,38 @@
+//! The triangles of a picture by the line on which they start.
+
+/// Number of a triangle in a frame: through the meshes in the order they were added; those made by clipping count down
+/// from [`TriangleId::MADE`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TriangleId(pub(crate) u16);
+
+impl TriangleId {
+    /// The last number, that of the first made triangle.
+    pub(crate) const MADE: u16 = 0xfffe;
+}
+
+/// A kept triangle, and the next one that starts on the same line.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept {
+    pub(crate) next: u16,
+    pub(crate) triangle: TriangleId,
+}
+
+/// End of a line's list.
+pub(crate) const NONE: u16 = 0xffff;
+
+/// The triangles that start on one line.
+#[derive(Clone, Debug)]
+pub(crate) struct Starting<'a> {
+    pub(crate) kept: &'a [Kept],
+    pub(crate) next: u16,
+}
+
+impl Iterator for Starting<'_> {
+    type Item = TriangleId;
+
+    fn next(&mut self) -> Option<TriangleId> {
+        let kept = self.kept.get(usize::from(self.next))?;
+        self.next = kept.next;
+        Some(kept.triangle)
+    }
+}

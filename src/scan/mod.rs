@@ -1,0 +1,10 @@
+//! From a picture's triangles to the span table of a line.
+
+pub mod active;
+pub mod bucket;
+pub mod edge;
+pub mod list;
+pub mod picture;
+pub mod resolve;
+pub mod table;
+pub mod vertex;

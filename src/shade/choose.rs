@@ -1,0 +1,65 @@
+//! Two methods in one scene.
+
+use core::marker::PhantomData;
+
+use super::{Intensity, Shade, Surface};
+use crate::scan::picture::Triangle;
+
+/// Which of two methods shades a triangle.
+pub trait Rule<const LIGHTS: usize> {
+    /// Whether it is the second.
+    fn second(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool;
+}
+
+/// The rule that leaves it to the material: the second method for those [marked plain](crate::Material::plain).
+#[derive(Clone, Copy, Debug)]
+pub struct ByMaterial;
+
+impl<const LIGHTS: usize> Rule<LIGHTS> for ByMaterial {
+    fn second(_: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool {
+        surface.material.plain
+    }
+}
+
+/// Shades each triangle by `A` or by `B`, as the rule `R` says; may be nested. Only the methods named are linked.
+#[derive(Clone, Copy, Debug)]
+pub struct Choose<A, B, R = ByMaterial>(PhantomData<(A, B, R)>);
+
+/// One of two.
+#[derive(Clone, Copy, Debug)]
+pub enum Either<A, B> {
+    /// The first method's.
+    First(A),
+    /// The second method's.
+    Second(B),
+}
+
+impl<const LIGHTS: usize, A: Shade<LIGHTS>, B: Shade<LIGHTS>, R: Rule<LIGHTS>> Shade<LIGHTS> for Choose<A, B, R> {
+    type Facet = Either<A::Facet, B::Facet>;
+    type Registers = Either<A::Registers, B::Registers>;
+    const EMPTY: Self::Facet = Either::First(A::EMPTY);
+
+    fn facet(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
+        if R::second(triangle, surface) {
+            Either::Second(B::facet(triangle, surface))
+        } else {
+            Either::First(A::facet(triangle, surface))
+        }
+    }
+
+    #[inline]
+    fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
+        match facet {
+            Either::First(facet) => Either::First(A::start(facet, x, y)),
+            Either::Second(facet) => Either::Second(B::start(facet, x, y)),
+        }
+    }
+
+    #[inline]
+    fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P) {
+        match registers {
+            Either::First(registers) => A::run(registers, surface, pixels, ink),
+            Either::Second(registers) => B::run(registers, surface, pixels, ink),
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! How a visible triangle gets its light: one file for each method, behind one trait.
+
+use crate::{model::material::Material, scan::picture::Triangle};
+
+pub mod choose;
+pub mod duff_barycentric;
+pub mod flat;
+pub mod gouraud;
+
+/// Light that a surface sends to the eye, before its colours: ambient apart, diffuse and specular each summed over the lights
+/// that reach it; Q14, at most just below 2.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Intensity {
+    /// Σ intensity · max(0, n·l).
+    pub diffuse: u32,
+    /// Σ intensity · max(0, n·h)ⁿ.
+    pub specular: u32,
+}
+
+/// The most that an [`Intensity`] holds.
+pub const MOST: u32 = (2 << 14) - 1;
+
+/// What a triangle is shaded with: its material, and the intensities of the lights in Q15.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<'a, const LIGHTS: usize> {
+    /// The material.
+    pub material: &'a Material,
+    /// For each light, Q15.
+    pub intensities: &'a [u16; LIGHTS],
+}
+
+/// A shading method.
+///
+/// A facet is set up once, when its triangle is first seen. Starting anywhere gives the very registers that stepping there
+/// would give (modulo 2³²), so that lines and pixels may be skipped at no cost.
+pub trait Shade<const LIGHTS: usize> {
+    /// What shading needs of a visible triangle.
+    type Facet: Copy + core::fmt::Debug;
+    /// What it steps from pixel to pixel.
+    type Registers: Copy + core::fmt::Debug;
+    /// A facet of nothing, to fill memory with.
+    const EMPTY: Self::Facet;
+
+    /// Sets up a triangle.
+    fn facet(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet;
+
+    /// The registers at pixel x of line y.
+    fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers;
+
+    /// Shades the pixels from there on to the right; `ink` makes a pixel of an intensity.
+    fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P);
+}
+
+/// A dot product in Q24, clamped at 0, as Q15.
+#[inline(always)]
+const fn lit(dot: i32) -> u32 {
+    ((dot & !(dot >> 31)) >> 9) as u32
+}
