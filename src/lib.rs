@@ -1,5 +1,71 @@
-//! beamshade
+//! Phong-quality 3D scanlines for microcontrollers: fixed point, no frame buffer, no z-buffer, no allocation.
+//!
+//! A lit triangle mesh goes in; shaded scanlines come out, one at a time, when the display wants them. The way of the data is the
+//! order of the modules:
+//!
+//! 1. [`math`]: number formats, and the arithmetic on them.
+//! 2. [`model`]: what you describe. [`Mesh`] and [`Material`] live in flash; a [`Pose`] says where an object stands, a [`Camera`]
+//!    who looks, a [`Light`] from where it shines.
+//! 3. [`Frame`]: once a frame. `begin(camera, lights)`, then `add(mesh, pose)` for each object: transforms, lights, culls, clips,
+//!    and sorts the triangles into buckets by the line on which they start.
+//! 4. [`Scanner`]: once a line. Takes in the triangles that start, steps the ones that are there, resolves who is seen where, and
+//!    makes the line's span table.
+//! 5. [`shade`]: one file for each method, behind one trait. The default, [`shade::duff_barycentric`], is exact Phong shading for
+//!    a few additions, products and look-ups a pixel.
+//! 6. [`sink`]: pixel encodings, the overlay, and whole frames to any embedded-graphics display.
+//!
+//! The application owns every buffer and pulls lines; nothing here waits, calls back, allocates, panics, or knows a peripheral.
+//!
+//! ```
+//! use beamshade::{Camera, Frame, Light, Pose, Scanner, Turn};
+//! use embedded_graphics::{mock_display::MockDisplay, pixelcolor::Rgb565, prelude::*};
+//! # use beamshade::{Color, Material, Mesh, MeshData};
+//! # use fixed::types::I16F16;
+//! # static TEAPOT: Mesh<'static> = match Mesh::new(MeshData {
+//! #     extent: I16F16::ONE, center: [0; 3], radius: 32768, positions: &[[-16384, -16384, 0], [16384, -16384, 0], [0, 16384, 0]],
+//! #     normals: &[[0, 0, 16384]; 3], triangles: &[[0, 1, 2]], edges: &[[0; 3]], parts: &[[1, 0]],
+//! #     materials: &[Material::new(Color::rgb(0.85, 0.45, 0.20))],
+//! # }) { Ok(mesh) => mesh, Err(_) => panic!() };
+//! # let mut display = MockDisplay::<Rgb565>::new();
+//!
+//! let camera = Camera::new(Size::new(64, 48)).field_of_view(Turn::degrees(40)).at_distance(2.45);
+//! let light = Light::directional([-0.5, 0.7, 0.6]);
+//! let mut frame = Frame::<512, 512, 48>::new(); // vertices, triangles that face the eye, lines
+//! let mut scanner = Scanner::<72>::new(); // triangles that cross one line
+//! let mut row = [Rgb565::BLACK; 64];
+//!
+//! frame.begin(&camera, &[light])?;
+//! frame.add(&TEAPOT, &Pose::turned_y(Turn::degrees(6)))?; // Err(Full { .. }) says what had no room
+//! scanner.start(frame.picture()).draw(&mut row, &mut display)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Or line by line, one row shaded while the other is sent:
+//!
+//! ```
+//! # use beamshade::{Camera, Frame, Scanner};
+//! # use embedded_graphics::prelude::*;
+//! # let mut frame = Frame::<8, 8, 48>::new();
+//! # let mut scanner = Scanner::<8>::new();
+//! # frame.begin(&Camera::new(Size::new(64, 48)), &[beamshade::Light::OFF])?;
+//! let mut lines = scanner.start(frame.picture());
+//! let mut rows = [[[0u8; 2]; 64]; 2]; // Rgb565, high byte first
+//! for y in 0..48 {
+//!     rows.swap(0, 1);
+//!     let [row, _sending] = &mut rows;
+//!     lines.line(y, row);
+//!     let _bytes: &[u8] = row.as_flattened(); // to SPI or DMA
+//! }
+//! # Ok::<(), beamshade::Full>(())
+//! ```
+//!
+//! # Determinism
+//!
+//! Floats end where a scene is described: an `f32` becomes an integer once, by one multiplication and `as`. Below that border all
+//! is integer, so the same scene gives the same bytes on every target.
+
 #![no_std]
+
 pub mod frame;
 pub mod math;
 pub mod model;
@@ -7,8 +73,9 @@ pub mod scan;
 pub mod scanner;
 pub mod shade;
 pub mod sink;
+
 pub use frame::{Frame, Full};
-pub use math::{angle::Turn, rotation::Rotation};
+pub use math::{angle::Turn, rotation::Rotation, Length};
 pub use model::{
     camera::Camera,
     light::Light,
@@ -16,5 +83,13 @@ pub use model::{
     mesh::{Mesh, MeshData, MeshError},
     pose::Pose,
 };
+pub use scan::picture::{Background, Picture, Source};
 pub use scanner::{Line, Lines, Scanner};
+pub use shade::{
+    choose::{ByMaterial, Choose},
+    duff_barycentric::DuffBarycentric,
+    flat::Flat,
+    gouraud::Gouraud,
+    Intensity, Shade,
+};
 pub use sink::{ink::Ink, overlay::Overlay};

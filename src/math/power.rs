@@ -5,7 +5,7 @@
 /// The table is indexed by the distance from the peak, `t = 1 − cos`, has 128 intervals of equal width over
 /// `0 ≤ t < 2⁻ᵏ`, and is linear in between; k is the largest that keeps the whole visible range inside.
 ///
-/// Error against f64, for n = 1 … 256: at most 1/1800 (0.14 of 255 levels), RMS below 1/9000 over the tabulated range.
+/// Error against f64, for n = 1 … 256: at most 1.1·10⁻³ (0.28 of 255 levels), RMS below 1.2·10⁻⁴ over the tabulated range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Power {
     exponent: u16,
@@ -31,18 +31,29 @@ impl Power {
         }
         let shift = 31 - k - Self::INTERVAL_BITS;
         let mut table = [0; Self::INTERVALS];
-        let mut near = (Self::exact(Self::ONE, exponent) + (1 << 15)) >> 16;
+        let mut near = Self::knot(0, shift, exponent);
         let mut i = 0;
         while i < Self::INTERVALS {
-            let far = (Self::exact(Self::ONE - ((i as u32 + 1) << shift), exponent) + (1 << 15)) >> 16;
+            let far = Self::knot(i as u32 + 1, shift, exponent);
             #[expect(clippy::indexing_slicing, reason = "i < INTERVALS; slice::get is not const")]
             {
-                table[i] = (near << 16) | (near - far);
+                table[i] = (near << 16) | near.saturating_sub(far);
             }
             near = far;
             i += 1;
         }
         Self { exponent, shift: shift as u8, table }
+    }
+
+    /// What the table holds at the start of interval i, Q14: a chord lies above the curve by an eighth of the second difference
+    /// in its middle, so half of that is taken off its ends.
+    const fn knot(i: u32, shift: u32, exponent: u16) -> u32 {
+        let width = 1 << shift;
+        let cos = Self::ONE - i * width;
+        let middle = if i == 0 { cos - width } else { cos };
+        let [above, at, below] = [middle + width, middle, middle.saturating_sub(width)];
+        let bow = (Self::exact(above, exponent) + Self::exact(below, exponent)).saturating_sub(2 * Self::exact(at, exponent));
+        (Self::exact(cos, exponent).saturating_sub(bow / 16) + (1 << 15)) >> 16
     }
 
     /// `cosⁿ` in Q30 by repeated squaring; `cos` is Q31, at most one.

@@ -23,8 +23,7 @@ pub const fn scale(a: i32, shift: i32) -> i32 {
     } else if shift < -31 {
         0
     } else {
-        // The half is added after the last but one bit, where it cannot overflow.
-        ((a >> (-shift - 1)).wrapping_add(1)) >> 1
+        (a >> -shift) + ((a >> (-shift - 1)) & 1)
     }
 }
 
