@@ -1,1 +1,22 @@
-//! The reference.
+//! The independent truth that the fixed-point library is tested against.
+//!
+//! - [`reference`](mod@reference) draws a scene in f64, with nothing quantised and nothing approximated;
+//! - [`scenes`] holds the standard scenes T880 and T5560;
+//! - [`Picture`] is what either renderer draws: colours, and the [`Owner`] of each pixel;
+//! - [`Format`] takes colours to the levels of an output format and back;
+//! - [`Measures`] tells how far two pictures are apart;
+//! - [`image`] keeps pictures in PNG files.
+//!
+//! The reference shares no code with the library.
+
+pub mod image;
+pub mod reference;
+pub mod scenes;
+
+mod compare;
+mod format;
+mod picture;
+
+pub use compare::Measures;
+pub use format::Format;
+pub use picture::{Owner, Picture};
