@@ -18,7 +18,7 @@ use crate::{
         projection::Projection,
     },
     scan::{
-        bucket::{Kept, TriangleId, NONE},
+        bucket::{Kept, TriangleId},
         picture::{Background, Made, Object, Picture},
         vertex::Vertex,
     },
@@ -117,18 +117,18 @@ impl<
         const MADE: usize,
     > Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE>
 {
-    /// An empty frame, black.
+    /// An empty frame, black; all zeros, so that a `static` takes no flash.
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            camera: Camera::new(embedded_graphics::geometry::Size::zero()),
+            camera: Camera::NONE,
             viewport: Rectangle::zero(),
             background: Background::Plain(Color::BLACK),
             lights: [Light::OFF; LIGHTS],
             intensities: [0; LIGHTS],
             viewer: Vector([0; 3]),
             vertices: Vec::new(),
-            heads: [NONE; LINES],
+            heads: [0; LINES],
             kept: Vec::new(),
             objects: Vec::new(),
             made: Vec::new(),
@@ -154,7 +154,7 @@ impl<
         self.intensities = lights.each_ref().map(Light::strength);
         self.viewer = camera.viewer();
         self.vertices.clear();
-        self.heads = [NONE; LINES];
+        self.heads = [0; LINES];
         self.kept.clear();
         self.objects.clear();
         self.made.clear();
@@ -270,9 +270,8 @@ impl<
     #[inline]
     fn start(&mut self, line: u16, triangle: TriangleId) -> Result<(), ()> {
         let Some(head) = self.heads.get_mut(usize::from(line)) else { return Err(()) };
-        let place = self.kept.len() as u16;
         self.kept.push(Kept { next: *head, triangle }).map_err(|_| ())?;
-        *head = place;
+        *head = self.kept.len() as u16;
         Ok(())
     }
 
@@ -329,7 +328,7 @@ impl<
     /// Takes back all that was made after so many vertices, made and kept triangles.
     fn forget(&mut self, vertices: usize, made: usize, kept: usize) {
         while self.kept.len() > kept {
-            let place = (self.kept.len() - 1) as u16;
+            let place = self.kept.len() as u16;
             let Some(last) = self.kept.pop() else { break };
             if let Some(head) = self.heads.iter_mut().find(|head| **head == place) {
                 *head = last.next;

@@ -53,7 +53,7 @@ pub struct Line {
     pub spans: u16,
     /// Facets set up on it.
     pub facets: u16,
-    /// Of those, facets whose normals bend beyond what shading follows exactly: u above 0.75 at an edge's middle or the centroid.
+    /// Of those, facets whose normals bend beyond what shading follows exactly: u above 63/64 at an edge's middle or the centroid.
     pub bent: u16,
     /// Triangles left out for want of room, on this and all lines above: of those that cross a line, the ones whose nearest
     /// corner is farthest.
@@ -199,10 +199,11 @@ fn shade<P: Ink, S: Shade<LIGHTS>, const LIGHTS: usize>(
     S::run(S::start(facet, x, y), surface, pixels, |intensity| P::mix(&paint, intensity));
 }
 
-/// Whether `u = 1 − |N|²` passes 0.75 in the middle of an edge (e/2) or at the centroid (2/9 of the sum), e being Q15.
+/// Whether `u = 1 − |N|²` passes 63/64 in the middle of an edge (e/2) or at the centroid (2/9 of the sum), e being Q15.
 fn is_bent<const LIGHTS: usize>(triangle: &Triangle<LIGHTS>) -> bool {
+    const MOST: u32 = (1 << 15) * 63 / 64;
     let edges = triangle.edges.map(u32::from);
-    edges.iter().any(|e| *e > 3 << 14) || edges.iter().sum::<u32>() > (27 << 15) / 8
+    edges.iter().any(|e| *e > 2 * MOST) || 2 * edges.iter().sum::<u32>() > 9 * MOST
 }
 
 /// The colour of a gradient on line y.

@@ -9,7 +9,9 @@
 //!
 //! The reference shares no code with the library.
 
+pub mod accuracy;
 pub mod image;
+pub mod library;
 pub mod reference;
 pub mod scenes;
 

@@ -7,7 +7,7 @@ use crate::quantized::Quantized;
 impl Quantized {
     /// A `pub static` of that name, which ought to be in upper case: const data throughout, checked by the compiler.
     ///
-    /// It needs nothing but `beamshade` and `fixed` among the dependencies of the crate that includes it.
+    /// It needs nothing but `beamshade` among the dependencies of the crate that includes it.
     #[must_use]
     pub fn rust_source(&self, name: &str) -> String {
         let Self { extent, center, radius, positions, normals, triangles, edges, parts, surfaces, report, .. } = self;
@@ -30,7 +30,7 @@ impl Quantized {
         let _ = write!(
             source,
             "    match beamshade::Mesh::new(beamshade::MeshData {{\n\
-             \x20       extent: fixed::types::I16F16::from_bits({bits}),\n\
+             \x20       extent: beamshade::Length::from_bits({bits}),\n\
              \x20       center: {center},\n\
              \x20       radius: {radius},\n\
              \x20       positions: &POSITIONS,\n\

@@ -12,7 +12,6 @@ edition = "2021"
 
 [dependencies]
 beamshade = { path = "ROOT" }
-fixed = { version = "1.29", default-features = false }
 
 [build-dependencies]
 beamshade-mesh = { path = "ROOT/mesh-tool", default-features = false }

@@ -34,8 +34,8 @@ impl Gradient {
         [(corner.x >> 8) as i16, (corner.y >> 8) as i16]
     }
 
-    /// The gradient of the triangle; none where it is smaller than half a pixel or thinner than about 1/16 pixel:
-    /// such a triangle takes its values from its centroid.
+    /// The gradient of the triangle; none where it is thinner than about 1/64 pixel: such a triangle takes its values from its
+    /// centroid.
     #[inline]
     #[must_use]
     pub fn new([p0, p1, p2]: [Point; 3]) -> Option<Self> {
@@ -46,8 +46,8 @@ impl Gradient {
         let [ax, ay, bx, by] = [ax, ay, bx, by].map(|d| scale(d, up));
         let area = ax * by - ay * bx;
         let size = area.unsigned_abs();
-        // Sides below 1/4 pixel; twice the area below one pixel; the height over the longest side below 8 to 16 of the 13 bits.
-        if up > 7 || size < scale(1 << 16, 2 * up) as u32 || size < 1 << 16 {
+        // A height of 1/64 pixel over the longest side, or of 4 units where these are larger.
+        if up > 12 || size < (1 << 15) << up.max(0) {
             return None;
         }
         let turned = area >> 31;

@@ -29,6 +29,16 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// A camera that sees nothing; all zeros.
+    pub(crate) const NONE: Self = Self {
+        viewport: Rectangle::zero(),
+        field_of_view: Turn(0),
+        near: Length::ZERO,
+        position: [Length::ZERO; 3],
+        rotation: Rotation([Vector([0; 3]); 3]),
+        quarters: 0,
+    };
+
     /// A camera for a picture of that size, 1024×1024 at most (larger is clamped), at the panel's top left corner;
     /// 40° of vertical field of view, 3 away from the origin on the z axis, near plane at 0.1.
     #[must_use]

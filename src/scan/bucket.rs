@@ -13,17 +13,16 @@ impl TriangleId {
 /// A kept triangle, and the next one that starts on the same line.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept {
+    /// One more than its place; 0 at the end.
     pub(crate) next: u16,
     pub(crate) triangle: TriangleId,
 }
-
-/// End of a line's list.
-pub(crate) const NONE: u16 = 0xffff;
 
 /// The triangles that start on one line.
 #[derive(Clone, Debug)]
 pub(crate) struct Starting<'a> {
     pub(crate) kept: &'a [Kept],
+    /// One more than the place of the next one; 0 at the end.
     pub(crate) next: u16,
 }
 
@@ -31,7 +30,7 @@ impl Iterator for Starting<'_> {
     type Item = TriangleId;
 
     fn next(&mut self) -> Option<TriangleId> {
-        let kept = self.kept.get(usize::from(self.next))?;
+        let kept = self.kept.get(usize::from(self.next).wrapping_sub(1))?;
         self.next = kept.next;
         Some(kept.triangle)
     }

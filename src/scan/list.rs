@@ -16,19 +16,16 @@ pub(crate) struct ActiveList<const N: usize> {
 }
 
 impl<const N: usize> ActiveList<N> {
-    #[expect(clippy::indexing_slicing, reason = "evaluated by the compiler")]
+    /// A list that is to be [cleared](Self::clear) before its first use: all zeros, so that a `static` takes no flash.
     pub(crate) const fn new() -> Self {
-        let mut order = [0; N];
-        let mut slot = 0;
-        while slot < N {
-            order[slot] = slot as u16;
-            slot += 1;
-        }
-        Self { slots: [Active::NONE; N], order, used: 0 }
+        Self { slots: [Active::NONE; N], order: [0; N], used: 0 }
     }
 
     pub(crate) fn clear(&mut self) {
         self.used = 0;
+        for (place, slot) in self.order.iter_mut().zip(0..) {
+            *place = slot;
+        }
     }
 
     pub(crate) fn len(&self) -> usize {

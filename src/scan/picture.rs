@@ -3,7 +3,7 @@
 use embedded_graphics::{geometry::Point, primitives::Rectangle};
 
 use super::{
-    bucket::{Kept, Starting, TriangleId, NONE},
+    bucket::{Kept, Starting, TriangleId},
     vertex::Vertex,
 };
 use crate::model::{
@@ -92,7 +92,7 @@ pub struct Picture<'f, const LIGHTS: usize = 1> {
     pub(crate) background: Background,
     pub(crate) intensities: &'f [u16; LIGHTS],
     pub(crate) vertices: &'f [Vertex<LIGHTS>],
-    /// For each line, the first of the kept triangles that start there.
+    /// For each line, one more than the place of the first of the kept triangles that start there, or 0.
     pub(crate) heads: &'f [u16],
     pub(crate) kept: &'f [Kept],
     pub(crate) objects: &'f [Object<'f>],
@@ -121,7 +121,7 @@ impl<'f, const LIGHTS: usize> Picture<'f, LIGHTS> {
     }
 
     pub(crate) fn starting(&self, line: u16) -> Starting<'f> {
-        Starting { kept: self.kept, next: self.heads.get(usize::from(line)).copied().unwrap_or(NONE) }
+        Starting { kept: self.kept, next: self.heads.get(usize::from(line)).copied().unwrap_or(0) }
     }
 
     /// The mesh's triangle that this one is, or is a part of.

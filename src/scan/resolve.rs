@@ -105,6 +105,8 @@ impl<const N: usize> Sweep<N> {
             Ok(step) => (behind as u32).checked_add(step - 1).and_then(|sum| sum.checked_div(step)).unwrap_or(1),
             Err(_) => 1,
         };
-        (self.x + pixels.clamp(1, (last - self.x) as u32) as i32).min(last)
+        // Never more than what is left of the line, which fits 16 bits.
+        let left = (last - self.x) as u32;
+        self.x + pixels.min(left).max(1) as i32
     }
 }

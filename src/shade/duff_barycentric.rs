@@ -4,7 +4,7 @@ use super::{flat::bend_at_centroid, lit, Intensity, Shade, Surface, MOST};
 use crate::{
     math::{
         gradient::Gradient,
-        product::{mul_high, scale},
+        product::{mul_high, mul_scale},
         root::inverse_root,
     },
     scan::picture::Triangle,
@@ -17,7 +17,7 @@ use crate::{
 /// *Faster Phong Shading*'s Eq. 2b, `(ax + by + c)/√(dx² + exy + fy² + gx + hy + i)`, needs no vector products at set-up, and
 /// is continuous across shared edges. `1/√` and the power are looked up.
 ///
-/// Where normals bend so much that u passes 0.75 it is clamped there, and the line counts the facet as bent.
+/// Where normals bend so much that u passes 63/64 it is clamped there, and the line counts the facet as bent.
 #[derive(Clone, Copy, Debug)]
 pub struct DuffBarycentric;
 
@@ -116,17 +116,19 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
 /// `u = 2ρ(e01·v1 + e02·v2) + 2ρ²(e01·v0·v1 + e02·v0·v2 + e12·v1·v2)` with v the numerators and v0 = −v1 − v2.
 fn bend(gradient: &Gradient, [e01, e12, e20]: [u16; 3]) -> [i32; 6] {
     let Gradient { at: h, x: g, y: k, short, exponent } = *gradient;
-    let [e01, e12, e20] = [e01, e12, e20].map(u32::from);
+    // Sixteen bits of the largest edge constant: those of a smooth mesh are small.
+    let up = (u32::from(e01 | e12 | e20) | 1).leading_zeros() as i32 - 16;
+    let [e01, e12, e20] = [e01, e12, e20].map(|e| u32::from(e) << up);
     // e is Q15: 2ρ·e·v in Q28 is e·v·short · 2^(exponent − 39 + 1 − 15 + 28).
     let linear = |[v1, v2]: [i32; 2]| {
         let sum = (e01 as i32 * v1).wrapping_add(e20 as i32 * v2);
-        scale(mul_high(sum, short), exponent - 9)
+        mul_scale(sum, short, exponent - 9 - up)
     };
     // 2ρ²·e·v·w is e·v·w·short² · 2^(2·exponent − 78 + 1 − 15 + 28), and three halves of a word go in the products.
     let square = (short * (short >> 1)) >> 15;
     let quadratic = |[p0, p1, p2]: [i32; 3]| {
         let sum = mul_high(p0, e01) + mul_high(p1, e12) + mul_high(p2, e20);
-        scale(mul_high(sum, square), 2 * exponent - 16)
+        mul_scale(sum, square, 2 * exponent - 16 - up)
     };
     // The products that belong to e01, e12, e20: of one vector with itself, and of two both ways.
     let own = |[v1, v2]: [i32; 2]| {

@@ -1,0 +1,168 @@
+//! The library's renderings of the reference's scenes.
+
+use anyhow::{ensure, Context, Result};
+use beamshade::{Background, Camera, Color, Frame, Ink, Light, Lines, Pose, Rotation, Scanner, Shade, Turn};
+use beamshade_mesh::{Model, Part, Quantized, Surface};
+use embedded_graphics::geometry::Size;
+use glam::{DMat3, DVec3};
+
+use crate::{
+    reference::{self, Scene},
+    Owner, Picture,
+};
+
+/// Room on a PC: vertices, triangles, lines, objects, made triangles, and triangles on a line.
+const VERTICES: usize = 16384;
+const TRIANGLES: usize = 16384;
+const LINES: usize = 1024;
+const OBJECTS: usize = 16;
+const MADE: usize = 4096;
+const ACTIVE: usize = 2048;
+
+type BigFrame<'m, const LIGHTS: usize> = Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE>;
+
+/// The meshes of a scene in the library's number formats.
+#[derive(Debug)]
+pub struct Meshes(Vec<Quantized>);
+
+impl Meshes {
+    /// Quantises the meshes of a scene, with its materials.
+    ///
+    /// # Errors
+    ///
+    /// When a mesh does not fit the formats, or its triangles are not sorted by material.
+    pub fn of(scene: &Scene<'_>) -> Result<Self> {
+        scene.objects.iter().map(|object| model(object)?.quantize().map_err(Into::into)).collect::<Result<_>>().map(Self)
+    }
+}
+
+impl Meshes {
+    /// The first mesh as the library has it, back in f64, with the triangles of the mesh that it came from.
+    ///
+    /// # Errors
+    ///
+    /// When there is none.
+    pub fn dequantized(&self, mesh: &reference::Mesh) -> Result<reference::Mesh> {
+        let quantized = self.0.first().context("no mesh")?.mesh();
+        let data = quantized.data();
+        let back = |from: &[[i16; 3]], one: f64| from.iter().map(|v| DVec3::from_array(v.map(|c| f64::from(c) / one))).collect();
+        let positions: Vec<DVec3> = back(data.positions, 32768.0 / data.extent.to_num::<f64>());
+        let normals: Vec<DVec3> = back(data.normals, 16384.0);
+        let normals = normals.into_iter().map(DVec3::normalize_or_zero).collect();
+        Ok(reference::Mesh { positions, normals, ..mesh.clone() })
+    }
+}
+
+/// The model that the mesh tool would have read.
+fn model(object: &reference::Object<'_>) -> Result<Model> {
+    let reference::Mesh { positions, normals, triangles, materials } = object.mesh;
+    ensure!(materials.is_sorted(), "the triangles are not sorted by material");
+    let mut parts: Vec<Part> = Vec::new();
+    for (triangle, material) in materials.iter().enumerate() {
+        match parts.last_mut() {
+            Some(part) if part.surface == *material => part.triangles.end = triangle + 1,
+            _ => parts.push(Part { triangles: triangle..triangle + 1, surface: *material }),
+        }
+    }
+    Ok(Model {
+        positions: positions.iter().map(|p| p.to_array()).collect(),
+        normals: normals.iter().map(|n| n.to_array()).collect(),
+        triangles: triangles.clone(),
+        parts,
+        surfaces: object.materials.iter().map(surface).collect::<Result<_>>()?,
+        ..Model::default()
+    })
+}
+
+fn surface(material: &reference::Material) -> Result<Surface> {
+    ensure!(material.exponent.fract() == 0.0, "the library's exponents are whole");
+    Ok(Surface {
+        name: String::new(),
+        base: material.base,
+        highlight: material.highlight,
+        ambient: material.ambient,
+        diffuse: material.diffuse,
+        specular: material.specular,
+        exponent: material.exponent as u16,
+        double_sided: material.double_sided,
+    })
+}
+
+/// A rotation to the library's 2⁻³⁰.
+fn rotation(matrix: DMat3) -> Rotation {
+    let rows = matrix.transpose();
+    let q30 = |v: DVec3| beamshade::math::vector::Vector(v.to_array().map(|c| (c * f64::from(1 << 30)).round() as i32));
+    Rotation([q30(rows.x_axis), q30(rows.y_axis), q30(rows.z_axis)])
+}
+
+fn camera(camera: &reference::Camera) -> Camera {
+    let half = (camera.height as f64 / 2.0 / camera.focal).atan();
+    let turn = Turn((half / std::f64::consts::PI * 4_294_967_296.0).round() as u32);
+    Camera::new(Size::new(camera.width as u32, camera.height as u32))
+        .field_of_view(turn)
+        .near(camera.near as f32)
+        .at(camera.position.to_array().map(|c| c as f32))
+        .turned(rotation(camera.rotation))
+}
+
+/// Fills a frame with the scene and hands it to `see`.
+///
+/// # Errors
+///
+/// When the scene has another number of lights, or no room.
+pub fn frame<T, const LIGHTS: usize>(
+    scene: &Scene<'_>,
+    meshes: &Meshes,
+    see: impl FnOnce(beamshade::Picture<'_, LIGHTS>) -> T,
+) -> Result<T> {
+    let borrowed: Vec<_> = meshes.0.iter().map(Quantized::mesh).collect();
+    let mut frame: Box<BigFrame<'_, LIGHTS>> = Box::default();
+    let lights: Vec<_> = scene
+        .lights
+        .iter()
+        .map(|l| Light::directional(l.direction.to_array().map(|c| c as f32)).intensity(l.intensity as f32))
+        .collect();
+    let lights: &[Light; LIGHTS] = lights.as_slice().try_into().context("another number of lights")?;
+    let [r, g, b] = scene.background.map(|c| c as f32);
+    frame.background(Background::Plain(Color::rgb(r, g, b)));
+    frame.begin(&camera(&scene.camera), lights)?;
+    for (mesh, object) in borrowed.iter().zip(&scene.objects) {
+        let pose = Pose::turned(rotation(object.pose.rotation)).scaled(object.pose.scale as f32).at(object
+            .pose
+            .translation
+            .to_array()
+            .map(|c| c as f32));
+        frame.add(mesh, &pose)?;
+    }
+    Ok(see(frame.picture()))
+}
+
+/// Draws the scene by the library, every line from top to bottom.
+///
+/// # Errors
+///
+/// As [`frame`].
+pub fn draw<P: Ink, S: Shade<LIGHTS>, const LIGHTS: usize>(scene: &Scene<'_>, meshes: &Meshes) -> Result<Picture<P>> {
+    frame(scene, meshes, |picture| {
+        let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS>> = Box::default();
+        read(&mut scanner.start(picture))
+    })
+}
+
+/// All lines of a picture, with the owners of its pixels.
+pub fn read<P: Ink, S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(
+    lines: &mut Lines<'_, ACTIVE, S, LIGHTS>,
+) -> Picture<P> {
+    let size = lines.viewport().size;
+    let mut picture = Picture::blank(size.width as usize, size.height as usize, P::plain(Color::BLACK));
+    let (mut colors, mut owners) = (picture.color.chunks_mut(picture.width), picture.owner.chunks_mut(picture.width));
+    for y in 0..size.height as u16 {
+        let (Some(row), Some(owner)) = (colors.next(), owners.next()) else { break };
+        lines.line(y, row);
+        lines.spans(y, |span, source| {
+            let seen = Owner { object: source.object.into(), triangle: source.triangle.into() };
+            owner[usize::from(span.start)..usize::from(span.end)].fill(Some(seen));
+        });
+    }
+    picture
+}
