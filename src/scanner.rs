@@ -3,7 +3,7 @@
 use embedded_graphics::primitives::Rectangle;
 
 use crate::{
-    model::material::Color,
+    model::material::{Color, Material},
     scan::{
         list::ActiveList,
         picture::{Background, Picture, Source, Triangle},
@@ -90,10 +90,10 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
         let mut line = Line { active: self.scanner.list.len() as u16, dropped: self.dropped, ..Line::default() };
         let mut sweep = Sweep::new(y, width);
         let mut from = 0;
-        while self.fill_table(&mut sweep) {
+        while sweep.fill(&mut self.scanner.list, &self.picture, &mut self.scanner.table) {
             from = self.shade_table(y, from, row, &mut line);
         }
-        self.fill_background(y, row, from, width);
+        fill_background(&self.picture, y, row, from, width);
         line
     }
 
@@ -103,7 +103,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
             return;
         }
         let mut sweep = Sweep::new(y, self.picture.width());
-        while self.fill_table(&mut sweep) {
+        while sweep.fill(&mut self.scanner.list, &self.picture, &mut self.scanner.table) {
             for span in &self.scanner.table {
                 let source = self.scanner.list.get(span.slot).and_then(|active| self.picture.source(active.id));
                 if let Some(source) = source {
@@ -134,55 +134,49 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
         true
     }
 
-    /// Resolves spans into the table until the line ends or the table is full; whether there are any.
-    fn fill_table(&mut self, sweep: &mut Sweep<ACTIVE>) -> bool {
-        let Scanner { list, table, .. } = &mut *self.scanner;
-        table.clear();
-        while !table.is_full() {
-            let Some(span) = sweep.next(list, &self.picture) else { break };
-            match table.last_mut() {
-                Some(last) if last.slot == span.slot && last.end == span.start => last.end = span.end,
-                _ => drop(table.push(span)),
-            }
-        }
-        !table.is_empty()
-    }
-
     /// Shades the table's spans, and the background before each; returns where the last one ends.
     fn shade_table<P: Ink>(&mut self, y: u16, mut from: i32, row: &mut [P], line: &mut Line) -> i32 {
-        for i in 0..self.scanner.table.len() {
-            let Some(&Span { start, end, slot }) = self.scanner.table.get(i) else { break };
-            self.fill_background(y, row, from, i32::from(start));
+        let Scanner { list, facets, table } = &mut *self.scanner;
+        let picture = &self.picture;
+        let mut last: Option<(&Material, P::Paint<'_>)> = None;
+        for &Span { start, end, slot } in table.iter() {
+            fill_background(picture, y, row, from, i32::from(start));
             from = i32::from(end);
             line.spans += 1;
-            let Scanner { list, facets, .. } = &mut *self.scanner;
             let (Some(active), Some(facet)) = (list.get_mut(slot), facets.get_mut(usize::from(slot))) else { continue };
             let Some(pixels) = row.get_mut(usize::from(start)..usize::from(end)) else { continue };
-            let Some(material) = self.picture.material(active.id) else { continue };
-            let surface = Surface { material, intensities: self.picture.intensities };
+            let Some(material) = picture.material(active.look) else { continue };
+            let surface = Surface { material, intensities: picture.intensities };
             if !active.shaded {
-                let Some(triangle) = self.picture.triangle(active.id) else { continue };
+                let Some(triangle) = picture.triangle(active.id) else { continue };
                 let triangle = if active.turned { triangle.turned() } else { triangle };
                 *facet = S::facet(&triangle, &surface);
                 active.shaded = true;
                 line.facets += 1;
                 line.bent += u16::from(is_bent(&triangle));
             }
-            shade::<P, S, LIGHTS>(facet, &surface, i32::from(start), i32::from(y), pixels);
+            if !last.as_ref().is_some_and(|(same, _)| core::ptr::eq(*same, material)) {
+                last = Some((material, P::paint(material)));
+            }
+            let Some((_, paint)) = &last else { continue };
+            shade::<P, S, LIGHTS>(facet, &surface, paint, i32::from(start), i32::from(y), pixels);
         }
         from
     }
+}
 
-    /// Fills pixels with the background.
-    fn fill_background<P: Ink>(&self, y: u16, row: &mut [P], from: i32, to: i32) {
-        let color = match self.picture.background {
-            Background::Plain(color) => color,
-            Background::Gradient { top, bottom } => between(top, bottom, y, self.picture.height()),
-            Background::Keep => return,
-        };
-        if let Some(pixels) = row.get_mut(from.max(0) as usize..to.max(from.max(0)) as usize) {
-            pixels.fill(P::plain(color));
-        }
+/// Fills pixels with the background.
+fn fill_background<P: Ink, const LIGHTS: usize>(picture: &Picture<'_, LIGHTS>, y: u16, row: &mut [P], from: i32, to: i32) {
+    if from >= to {
+        return;
+    }
+    let color = match picture.background {
+        Background::Plain(color) => color,
+        Background::Gradient { top, bottom } => between(top, bottom, y, picture.height()),
+        Background::Keep => return,
+    };
+    if let Some(pixels) = row.get_mut(from as usize..to as usize) {
+        pixels.fill(P::plain(color));
     }
 }
 
@@ -191,12 +185,12 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
 fn shade<P: Ink, S: Shade<LIGHTS>, const LIGHTS: usize>(
     facet: &S::Facet,
     surface: &Surface<'_, LIGHTS>,
+    paint: &P::Paint<'_>,
     x: i32,
     y: i32,
     pixels: &mut [P],
 ) {
-    let paint = P::paint(surface.material);
-    S::run(S::start(facet, x, y), surface, pixels, |intensity| P::mix(&paint, intensity));
+    S::run(S::start(facet, x, y), surface, pixels, |intensity| P::mix(paint, intensity));
 }
 
 /// Whether `u = 1 − |N|²` passes 63/64 in the middle of an edge (e/2) or at the centroid (2/9 of the sum), e being Q15.

@@ -9,8 +9,10 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Power {
     exponent: u16,
-    /// Bits to drop from a Q31 distance so that the rest counts intervals.
+    /// Bits to drop from a Q31 distance so that the rest counts 256ths of intervals.
     shift: u8,
+    /// Intervals from the peak on which the power is not 0.
+    visible: u8,
     /// Value at the near end in the high half, fall to the far end in the low half, both Q14.
     table: [u32; Power::INTERVALS],
 }
@@ -33,7 +35,8 @@ impl Power {
         let mut table = [0; Self::INTERVALS];
         let mut near = Self::knot(0, shift, exponent);
         let mut i = 0;
-        while i < Self::INTERVALS {
+        // Beyond 1/1024 nothing shows.
+        while i < Self::INTERVALS && near >= (1 << 14) / 1024 {
             let far = Self::knot(i as u32 + 1, shift, exponent);
             #[expect(clippy::indexing_slicing, reason = "i < INTERVALS; slice::get is not const")]
             {
@@ -42,7 +45,7 @@ impl Power {
             near = far;
             i += 1;
         }
-        Self { exponent, shift: shift as u8, table }
+        Self { exponent, shift: (shift - 8) as u8, visible: i as u8, table }
     }
 
     /// What the table holds at the start of interval i, Q14: a chord lies above the curve by an eighth of the second difference
@@ -77,22 +80,25 @@ impl Power {
         self.exponent
     }
 
-    /// The largest distance from the peak, `1 − cos` in Q31, at which the power still shows.
+    /// Whether the power shows at a cosine in Q31: whether [`at`](Self::at) may give more than 0.
+    #[must_use]
+    pub const fn shows(&self, cos: u32) -> bool {
+        Self::ONE.saturating_sub(cos) < self.reach()
+    }
+
+    /// The distance from the peak, `1 − cos` in Q31, from which on the power does not show.
     #[must_use]
     pub const fn reach(&self) -> u32 {
-        (Self::INTERVALS as u32) << self.shift
+        ((self.visible as u32) << 8) << self.shift
     }
 
     /// `cosⁿ` in Q14 (one is 16384) for a cosine in Q31; cosines above one count as one, those out of reach give 0.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn at(&self, cos: u32) -> u32 {
-        let distance = Self::ONE.saturating_sub(cos);
-        match self.table.get((distance >> self.shift) as usize) {
-            Some(entry) => {
-                let part = (distance & ((1 << self.shift) - 1)) >> (self.shift - 8);
-                (entry >> 16) - (((entry & 0xffff) * part + 128) >> 8)
-            }
+        let distance = Self::ONE.saturating_sub(cos) >> self.shift;
+        match self.table.get((distance >> 8) as usize) {
+            Some(entry) => (entry >> 16) - (((entry & 0xffff) * (distance & 0xff) + 128) >> 8),
             None => 0,
         }
     }

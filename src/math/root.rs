@@ -8,11 +8,9 @@
 #[must_use]
 pub fn inverse_root(u: i32) -> u32 {
     let u = (u & !(u >> 31)) as u32;
-    match TABLE.get((u >> SHIFT) as usize) {
-        Some(entry) => {
-            let part = (u >> (SHIFT - 8)) & 0xff;
-            ONE + (entry & 0xffff) + (((entry >> 16) * part) >> 8)
-        }
+    let place = u >> SHIFT;
+    match TABLE.get((place >> 8) as usize) {
+        Some(entry) => ONE + (entry & 0xffff) + (((entry >> 16) * (place & 0xff)) >> 8),
         None => steep(u),
     }
 }
@@ -33,8 +31,8 @@ fn steep(u: u32) -> u32 {
 
 const ONE: u32 = 1 << 16;
 const INTERVALS: usize = 96;
-/// `u >> SHIFT` counts intervals of 1/128 in a Q28 number.
-const SHIFT: u32 = 28 - 7;
+/// `u >> SHIFT` counts 256ths of intervals of 1/128 in a Q28 number.
+const SHIFT: u32 = 28 - 7 - 8;
 
 /// Rise over the interval in the high half; value at its start, less one, in the low half; Q16.
 static TABLE: [u32; INTERVALS] = table();

@@ -38,10 +38,15 @@ const fn factor(value: f32) -> u16 {
     }
 }
 
+/// The nearest level of `base · light`, base in Q15, light in 1/512 of that, one being `largest`.
+const fn shade(base: u16, light: u64, largest: u64) -> u16 {
+    ((base as u64 * light * largest + (1 << 38)) >> 39) as u16
+}
+
 /// A surface under Phong's illumination model (*Faster Phong Shading*, Eq. 1):
 /// `ambient·base + diffuse·base·(n·l) + specular·highlight·(n·h)ⁿ`, both products clamped at 0, the sum saturating.
 ///
-/// Built in a `const` or `static`, so that it lives in flash together with the table of its power.
+/// Built in a `const` or `static`, so that it lives in flash together with its tables, about 1 kB.
 ///
 /// ```
 /// use beamshade::{Color, Material};
@@ -59,6 +64,8 @@ pub struct Material {
     pub(crate) double_sided: bool,
     pub(crate) plain: bool,
     pub(crate) power: Power,
+    /// Rgb565 of the ambient and diffuse light alone, in the middle of 256 equal steps of the diffuse intensity up to one.
+    pub(crate) ramp: [u16; Self::STEPS],
 }
 
 impl Material {
@@ -74,21 +81,42 @@ impl Material {
             double_sided: false,
             plain: false,
             power: Power::new(32),
+            ramp: [0; Self::STEPS],
         }
+        .ramped()
+    }
+
+    /// Steps of the ramp.
+    const STEPS: usize = 256;
+
+    /// The same with its ramp made anew.
+    const fn ramped(mut self) -> Self {
+        let [red, green, blue] = self.base.0;
+        let mut step = 0;
+        while step < Self::STEPS {
+            let light = self.ambient as u64 * 512 + self.diffuse as u64 * (2 * step as u64 + 1);
+            let light = if light > 512 << 15 { 512 << 15 } else { light };
+            #[expect(clippy::indexing_slicing, reason = "step < STEPS; slice::get is not const")]
+            {
+                self.ramp[step] = shade(red, light, 31) << 11 | shade(green, light, 63) << 5 | shade(blue, light, 31);
+            }
+            step += 1;
+        }
+        self
     }
 
     /// The same with another ambient coefficient, 0.0 to 1.0, clamped.
     #[must_use]
     pub const fn ambient(mut self, coefficient: f32) -> Self {
         self.ambient = factor(coefficient);
-        self
+        self.ramped()
     }
 
     /// The same with another diffuse coefficient, 0.0 to 1.0, clamped.
     #[must_use]
     pub const fn diffuse(mut self, coefficient: f32) -> Self {
         self.diffuse = factor(coefficient);
-        self
+        self.ramped()
     }
 
     /// The same with another specular coefficient, 0.0 to 1.0, clamped.
@@ -144,6 +172,8 @@ impl Material {
             double_sided: flags & 1 == 1,
             plain: flags & 2 == 2,
             power: Power::new(exponent),
+            ramp: [0; Self::STEPS],
         }
+        .ramped()
     }
 }

@@ -169,15 +169,14 @@ impl<'a> Mesh<'a> {
         Ok(Binary::read(bytes)?.materials.iter().map(|words| Material::from_words(*words)))
     }
 
-    /// The material of a triangle; none for a number that is no triangle's.
-    #[must_use]
-    pub fn material_of(&self, triangle: u16) -> Option<&'a Material> {
+    /// The number of a triangle's material; none for a number that is no triangle's.
+    pub(crate) fn material_number(&self, triangle: u16) -> Option<u16> {
         let mut end = 0;
         let [_, material] = self.data.parts.iter().find(|[count, _]| {
             end += u32::from(*count);
             u32::from(triangle) < end
         })?;
-        self.data.materials.get(usize::from(*material))
+        Some(*material)
     }
 
     /// The checked arrays.

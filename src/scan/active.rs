@@ -20,6 +20,8 @@ pub struct Active {
     middle: u16,
     pub(crate) end: u16,
     pub(crate) id: TriangleId,
+    /// Its object's place in the picture, and its material's in the object's mesh.
+    pub(crate) look: [u16; 2],
     /// Of the mesh's triangle that this is or is a part of: decides ties.
     pub(crate) whole: TriangleId,
     /// Whether the middle corner is on the left.
@@ -45,6 +47,7 @@ impl Active {
         middle: 0,
         end: 0,
         id: TriangleId(0),
+        look: [0; 2],
         whole: TriangleId(0),
         middle_left: false,
         turned: false,
@@ -54,7 +57,7 @@ impl Active {
 
     /// The triangle on line `line`, on which or above which it must start; none if it is not on that line.
     #[inline]
-    pub(crate) fn new(points: [Point; 3], id: TriangleId, whole: TriangleId, line: u16) -> Option<Self> {
+    pub(crate) fn new(points: [Point; 3], id: TriangleId, line: u16) -> Option<Self> {
         let [top, middle, bottom] = by_height(points);
         let [start, middle_line, end] = [top, middle, bottom].map(|point| first_at(point.y));
         let line = i32::from(line);
@@ -73,7 +76,6 @@ impl Active {
             middle: middle_line.clamp(0, 0xffff) as u16,
             end: end.clamp(0, 0xffff) as u16,
             id,
-            whole,
             middle_left,
             turned: area(a, b, c) > 0,
             ..Self::NONE

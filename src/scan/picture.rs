@@ -143,24 +143,54 @@ impl<'f, const LIGHTS: usize> Picture<'f, LIGHTS> {
         Some(Source { object: object.number, triangle })
     }
 
-    /// The material of a triangle.
-    pub(crate) fn material(&self, id: TriangleId) -> Option<&'f Material> {
-        let (object, triangle) = self.object(self.whole(id))?;
-        object.mesh.material_of(triangle)
+    /// The place of a triangle's object among the picture's, and of its material in the object's mesh.
+    pub(crate) fn look(&self, id: TriangleId) -> [u16; 2] {
+        let whole = self.whole(id);
+        let object = self.objects.iter().rposition(|object| object.first_triangle <= whole.0).unwrap_or(0);
+        let material = self.objects.get(object).map_or(0, |object| {
+            let triangle = whole.0.wrapping_sub(object.first_triangle);
+            object.mesh.material_number(triangle).unwrap_or(0)
+        });
+        [object as u16, material]
+    }
+
+    /// The material at such a place.
+    #[inline]
+    pub(crate) fn material(&self, [object, material]: [u16; 2]) -> Option<&'f Material> {
+        self.objects.get(usize::from(object))?.mesh.data().materials.get(usize::from(material))
     }
 
     /// A triangle, fetched.
     #[inline]
     pub(crate) fn triangle(&self, id: TriangleId) -> Option<Triangle<LIGHTS>> {
-        let (first, corners, edges) = if let Some(made) = self.made.get(usize::from(TriangleId::MADE.wrapping_sub(id.0))) {
-            (0, made.corners, made.edges)
-        } else {
-            let (object, triangle) = self.object(id)?;
-            let data = object.mesh.data();
-            let triangle = usize::from(triangle);
-            (object.first_vertex, *data.triangles.get(triangle)?, *data.edges.get(triangle)?)
-        };
-        let [a, b, c] = corners.map(|corner| self.vertices.get(usize::from(first.wrapping_add(corner))));
-        Some(Triangle { corners: [*a?, *b?, *c?], edges })
+        let (first, corners, edges) = self.corners(id)?;
+        let [a, b, c] = self.vertices_at(first, corners)?;
+        Some(Triangle { corners: [*a, *b, *c], edges: *edges })
+    }
+
+    /// The corners of a triangle on the screen.
+    #[inline]
+    pub(crate) fn points(&self, id: TriangleId) -> Option<[Point; 3]> {
+        let (first, corners, _) = self.corners(id)?;
+        let [a, b, c] = self.vertices_at(first, corners)?;
+        Some([a.point(), b.point(), c.point()])
+    }
+
+    /// The number from which a triangle's corners count, theirs, and its edge constants.
+    #[inline]
+    fn corners(&self, id: TriangleId) -> Option<(u16, [u16; 3], &'f [u16; 3])> {
+        if let Some(made) = self.made.get(usize::from(TriangleId::MADE.wrapping_sub(id.0))) {
+            return Some((0, made.corners, &made.edges));
+        }
+        let (object, triangle) = self.object(id)?;
+        let data = object.mesh.data();
+        let triangle = usize::from(triangle);
+        Some((object.first_vertex, *data.triangles.get(triangle)?, data.edges.get(triangle)?))
+    }
+
+    #[inline]
+    fn vertices_at(&self, first: u16, corners: [u16; 3]) -> Option<[&'f Vertex<LIGHTS>; 3]> {
+        let [a, b, c] = corners.map(|corner| self.vertices.get(usize::from(first) + usize::from(corner)));
+        Some([a?, b?, c?])
     }
 }

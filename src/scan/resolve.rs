@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 
-use super::{active::Active, list::ActiveList, picture::Picture, table::Span};
+use super::{active::Active, list::ActiveList, picture::Picture, table::{Span, Table}};
 
 /// A walk along one line, from one span to the next.
 ///
@@ -20,45 +20,88 @@ pub(crate) struct Sweep<const N: usize> {
     open: Vec<u16, N>,
 }
 
+/// What comes next on a line.
+enum Step {
+    /// A span; spans of one triangle may come in pieces.
+    Span(Span),
+    /// Nothing; look again.
+    Look,
+    /// No more.
+    End,
+}
+
 impl<const N: usize> Sweep<N> {
     pub(crate) const fn new(line: u16, width: i32) -> Self {
         Self { line, width, x: 0, next: 0, open: Vec::new() }
     }
 
-    /// The next span; spans of one triangle may come in pieces.
-    pub(crate) fn next<const L: usize>(&mut self, list: &mut ActiveList<N>, picture: &Picture<'_, L>) -> Option<Span> {
-        let x = self.x;
-        self.open.retain(|slot| list.get(*slot).is_some_and(|active| active.stop() > x));
+    /// Adds the next spans to the table, until the line ends or the table is full; whether there are any.
+    pub(crate) fn fill<const L: usize>(&mut self, list: &mut ActiveList<N>, picture: &Picture<'_, L>, table: &mut Table<N>) -> bool {
+        table.clear();
+        while !table.is_full() {
+            let span = if self.open.is_empty() { self.alone(list) } else { self.among(list, picture) };
+            match span {
+                Step::Span(span) => match table.last_mut() {
+                    Some(last) if last.slot == span.slot && last.end == span.start => last.end = span.end,
+                    _ => drop(table.push(span)),
+                },
+                Step::Look => {}
+                Step::End => break,
+            }
+        }
+        !table.is_empty()
+    }
+
+    /// The next triangle, where none is open: all of it, if the one after it begins where it ends or later.
+    #[inline(always)]
+    fn alone(&mut self, list: &ActiveList<N>) -> Step {
+        let Some([place, rest @ ..]) = list.places().get(self.next..) else { return Step::End };
+        self.next += 1;
+        let Some(active) = list.get(place.slot) else { return Step::End };
+        let (start, end) = (i32::from(place.begin).max(self.x), active.stop().min(self.width));
+        if start >= end {
+            return if start >= self.width { Step::End } else { Step::Look };
+        }
+        self.x = start;
+        if rest.first().is_some_and(|next| i32::from(next.begin) < end) {
+            let _ = self.open.push(place.slot);
+            return Step::Look;
+        }
+        self.x = end;
+        Step::Span(Span { start: start as u16, end: end as u16, slot: place.slot })
+    }
+
+    /// The next span where triangles are open.
+    #[inline(never)]
+    fn among<const L: usize>(&mut self, list: &mut ActiveList<N>, picture: &Picture<'_, L>) -> Step {
         // The end of what can be said without looking again.
         let mut limit = self.width;
-        while let Some(&slot) = list.slots().get(self.next) {
-            let Some(active) = list.get(slot) else { break };
-            if active.stop() > self.x.max(active.begin()) {
-                if active.begin() > self.x {
-                    if !self.open.is_empty() {
-                        limit = limit.min(active.begin());
-                        break;
-                    }
-                    self.x = active.begin();
-                }
-                let _ = self.open.push(slot);
+        while let Some(place) = list.places().get(self.next) {
+            if i32::from(place.begin) > self.x {
+                limit = limit.min(i32::from(place.begin));
+                break;
+            }
+            if list.get(place.slot).is_some_and(|active| active.stop() > self.x) {
+                let _ = self.open.push(place.slot);
             }
             self.next += 1;
         }
         for &slot in &self.open {
             limit = limit.min(list.get(slot).map_or(0, Active::stop));
         }
-        if self.x >= limit {
-            return None;
-        }
-        let (slot, end) = match *self.open {
-            [] => return None,
-            [slot] => (slot, limit),
-            [..] => self.front(limit, list, picture)?,
+        let front = match *self.open {
+            [slot] => Some((slot, limit)),
+            _ => self.front(limit, list, picture),
         };
+        let Some((slot, end)) = front else { return Step::End };
         let start = self.x;
         self.x = end;
-        Some(Span { start: start as u16, end: end as u16, slot })
+        self.open.retain(|slot| list.get(*slot).is_some_and(|active| active.stop() > end));
+        if end >= self.width {
+            self.open.clear();
+            self.next = usize::MAX;
+        }
+        Step::Span(Span { start: start as u16, end: end as u16, slot })
     }
 
     /// Of several triangles that cover all pixels up to `limit`, the one in front at the current pixel, and where it stops

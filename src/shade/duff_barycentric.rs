@@ -1,6 +1,6 @@
 //! The default: Phong shading by Duff's expression in barycentric form.
 
-use super::{flat::bend_at_centroid, lit, Intensity, Shade, Surface, MOST};
+use super::{flat::bend_at_centroid, lit, Intensity, Shade, Surface};
 use crate::{
     math::{
         gradient::Gradient,
@@ -29,6 +29,8 @@ pub struct Facet<const LIGHTS: usize> {
     dots: [[[i32; 3]; 2]; LIGHTS],
     /// u at the anchor, and the coefficients of X, Y, X², XY, Y²; Q28.
     bend: [i32; 6],
+    /// Whether a highlight can show on it.
+    shiny: bool,
 }
 
 /// Two and two registers for each light, and three for u.
@@ -39,14 +41,15 @@ pub struct Registers<const LIGHTS: usize> {
     bend: i32,
     bend_step: i32,
     bend_second: i32,
+    shiny: bool,
 }
 
 impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
     type Facet = Facet<LIGHTS>;
     type Registers = Registers<LIGHTS>;
-    const EMPTY: Facet<LIGHTS> = Facet { anchor: [0; 2], dots: [[[0; 3]; 2]; LIGHTS], bend: [0; 6] };
+    const EMPTY: Facet<LIGHTS> = Facet { anchor: [0; 2], dots: [[[0; 3]; 2]; LIGHTS], bend: [0; 6], shiny: false };
 
-    fn facet(triangle: &Triangle<LIGHTS>, _: &Surface<'_, LIGHTS>) -> Facet<LIGHTS> {
+    fn facet(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Facet<LIGHTS> {
         let points = triangle.points();
         let gradient = Gradient::new(points);
         let mut dots = [[[0; 3]; 2]; LIGHTS];
@@ -65,7 +68,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
             None => [bend_at_centroid(triangle), 0, 0, 0, 0, 0],
         };
         let [p0, ..] = points;
-        Facet { anchor: Gradient::anchor(p0), dots, bend }
+        Facet { anchor: Gradient::anchor(p0), dots, bend, shiny: is_shiny(triangle, surface) }
     }
 
     #[inline]
@@ -85,29 +88,64 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
             bend: c.wrapping_add(x.wrapping_mul(b.wrapping_add(ax))),
             bend_step: b.wrapping_add(ax).wrapping_add(ax).wrapping_add(uxx),
             bend_second: uxx.wrapping_add(uxx),
+            shiny: facet.shiny,
         }
     }
 
     #[inline]
     fn run<P>(mut r: Registers<LIGHTS>, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P) {
-        let power = &surface.material.power;
-        for pixel in pixels {
-            let root = inverse_root(r.bend);
-            let mut intensity = Intensity::default();
-            for ([diffuse, specular], strength) in r.dots.iter_mut().zip(surface.intensities) {
-                // Q15 · Q16: cosines in Q31.
-                intensity.diffuse += lit(diffuse[0]).wrapping_mul(root) >> 17;
-                intensity.specular += (power.at(lit(specular[0]).wrapping_mul(root)) * u32::from(*strength)) >> 15;
-                diffuse[0] = diffuse[0].wrapping_add(diffuse[1]);
-                specular[0] = specular[0].wrapping_add(specular[1]);
+        if r.shiny {
+            let power = &surface.material.power;
+            for pixel in pixels {
+                let root = inverse_root(r.bend);
+                let mut intensity = Intensity::default();
+                for ([diffuse, specular], strength) in r.dots.iter_mut().zip(surface.intensities) {
+                    // Q15 · Q16: cosines in Q31.
+                    intensity.diffuse += lit(diffuse[0]).wrapping_mul(root) >> 17;
+                    intensity.specular += (power.at(lit(specular[0]).wrapping_mul(root)) * u32::from(*strength)) >> 15;
+                    diffuse[0] = diffuse[0].wrapping_add(diffuse[1]);
+                    specular[0] = specular[0].wrapping_add(specular[1]);
+                }
+                *pixel = ink(intensity.limited(LIGHTS));
+                r.step_bend();
             }
-            intensity.diffuse = intensity.diffuse.min(MOST);
-            intensity.specular = intensity.specular.min(MOST);
-            *pixel = ink(intensity);
-            r.bend = r.bend.wrapping_add(r.bend_step);
-            r.bend_step = r.bend_step.wrapping_add(r.bend_second);
+        } else {
+            for pixel in pixels {
+                let root = inverse_root(r.bend);
+                let mut intensity = Intensity::default();
+                for [diffuse, _] in &mut r.dots {
+                    intensity.diffuse += lit(diffuse[0]).wrapping_mul(root) >> 17;
+                    diffuse[0] = diffuse[0].wrapping_add(diffuse[1]);
+                }
+                *pixel = ink(intensity.limited(LIGHTS));
+                r.step_bend();
+            }
         }
     }
+}
+
+impl<const LIGHTS: usize> Registers<LIGHTS> {
+    #[inline(always)]
+    fn step_bend(&mut self) {
+        self.bend = self.bend.wrapping_add(self.bend_step);
+        self.bend_step = self.bend_step.wrapping_add(self.bend_second);
+    }
+}
+
+/// Whether the power can show anywhere on the triangle.
+///
+/// N·H is nowhere more than at the best corner, and |N| nowhere less than by u = 2/3 of the largest edge constant, as
+/// Σ λi λj ≤ 1/3.
+fn is_shiny<const LIGHTS: usize>(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool {
+    let [c0, c1, c2] = &triangle.corners;
+    let dots = c0.dots.iter().chain(&c1.dots).chain(&c2.dots);
+    let most = dots.map(|[_, specular]| *specular).max().unwrap_or(0).max(0) as u32;
+    let [e01, e12, e20] = triangle.edges;
+    // 2/3 of a Q15 number in Q28, without a division.
+    let bend = u32::from(e01.max(e12).max(e20)) * (16384 / 3 + 1);
+    // Q14 · Q16, rounded up a little, against Q31.
+    let cosine = ((most + 2) * (inverse_root(bend as i32) + 8)).saturating_mul(2);
+    surface.material.power.shows(cosine)
 }
 
 /// The coefficients of u, Q28.

@@ -1,6 +1,6 @@
 //! One intensity for each facet.
 
-use super::{Intensity, Shade, Surface, MOST};
+use super::{Intensity, Shade, Surface};
 use crate::{math::root::inverse_root, scan::picture::Triangle};
 
 /// Flat shading: the illumination at the triangle's centroid, under the normalised mean of the corners' normals.
@@ -26,7 +26,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for Flat {
             intensity.diffuse += cosine(|[diffuse, _]| diffuse) >> 17;
             intensity.specular += (surface.material.power.at(cosine(|[_, specular]| specular)) * u32::from(*strength)) >> 15;
         }
-        Intensity { diffuse: intensity.diffuse.min(MOST), specular: intensity.specular.min(MOST) }
+        intensity.limited(LIGHTS)
     }
 
     fn start(facet: &Intensity, _: i32, _: i32) -> Intensity {

@@ -1,6 +1,6 @@
 //! Intensities at the corners, linear in between.
 
-use super::{lit, Intensity, Shade, Surface, MOST};
+use super::{lit, Intensity, Shade, Surface};
 use crate::{math::gradient::Gradient, scan::picture::Triangle};
 
 /// Gouraud shading: the illumination at the corners, interpolated over the screen; diffuse and specular apart, so that they
@@ -73,5 +73,5 @@ pub(super) fn at_corner<const LIGHTS: usize>(dots: &[[i16; 2]; LIGHTS], surface:
         let cosine = (i32::from(*specular).max(0) as u32) << 17;
         sum.specular += (surface.material.power.at(cosine) * u32::from(*strength)) >> 15;
     }
-    Intensity { diffuse: sum.diffuse.min(MOST), specular: sum.specular.min(MOST) }
+    sum.limited(LIGHTS)
 }

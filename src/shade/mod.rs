@@ -17,8 +17,21 @@ pub struct Intensity {
     pub specular: u32,
 }
 
-/// The most that an [`Intensity`] holds.
-pub const MOST: u32 = (2 << 14) - 1;
+impl Intensity {
+    /// The most that either holds.
+    pub const MOST: u32 = (2 << 14) - 1;
+
+    /// Clamped to the most, if more than one light was summed: one alone stays below.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn limited(self, lights: usize) -> Self {
+        if lights > 1 {
+            Self { diffuse: self.diffuse.min(Self::MOST), specular: self.specular.min(Self::MOST) }
+        } else {
+            self
+        }
+    }
+}
 
 /// What a triangle is shaded with: its material, and the intensities of the lights in Q15.
 #[derive(Clone, Copy, Debug)]

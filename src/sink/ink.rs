@@ -10,50 +10,63 @@ use crate::{
 /// A pixel that light can be turned into. Each channel is rounded to the nearest level once, after all sums, and saturates.
 pub trait Ink: Copy {
     /// A material's colours, made ready for this kind of pixel.
-    type Paint: Copy;
+    type Paint<'m>;
 
     /// Makes a material ready.
-    fn paint(material: &Material) -> Self::Paint;
+    fn paint(material: &Material) -> Self::Paint<'_>;
 
     /// The pixel for that much light.
-    fn mix(paint: &Self::Paint, intensity: Intensity) -> Self;
+    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self;
 
     /// The pixel of a colour as it is.
     fn plain(color: Color) -> Self;
 }
 
-/// One channel of a material with `BITS` bits: `(ambient + diffuse · d + specular · s)`, one being the largest level.
+/// The first bit above every level.
+const OVER: u32 = 29;
+
+/// One channel of a material with `BITS` bits: `ambient + diffuse · d + specular · s`, levels in the upper bits of a word.
 #[derive(Clone, Copy, Debug)]
 struct Channel<const BITS: u32> {
-    /// With half a level for rounding; Q29 of the largest level.
+    /// With half a level for rounding.
     ambient: u32,
-    /// Q15 of the largest level, both.
+    /// Per Q14 of intensity, both.
     diffuse: u32,
     specular: u32,
 }
 
 impl<const BITS: u32> Channel<BITS> {
     const LARGEST: u32 = (1 << BITS) - 1;
-    /// Q15 coefficients times Q14 intensities are Q29; levels are scaled so that the largest is `LARGEST · 2^SHIFT`.
-    const SHIFT: u32 = 29 - BITS;
+    /// The place of a level's lowest bit: two products of intensities below 2, and an ambient of at most 1, fit a word.
+    const PLACE: u32 = OVER - BITS;
 
     fn new(material: &Material, base: u16, highlight: u16) -> Self {
-        let times = |coefficient: u16, factor: u16| (u32::from(coefficient) * u32::from(factor) + (1 << 14)) >> 15;
-        // From "one is 2ᵏ" to "one is LARGEST/2^BITS · 2ᵏ".
-        let level = |q15: u32| q15 - (q15 >> BITS);
-        let ambient = times(material.ambient, base);
+        // Q15 · Q15, times the largest level: Q15 of the word's unit for an intensity of one.
+        let level = |coefficient: u16, factor: u16| {
+            let product = (u32::from(coefficient) * u32::from(factor)) >> 15;
+            product - (product >> BITS)
+        };
         Self {
-            ambient: (ambient << 14) - ((ambient << 14) >> BITS) + (1 << (Self::SHIFT - 1)),
-            diffuse: level(times(material.diffuse, base)),
-            specular: level(times(material.specular, highlight)),
+            ambient: (level(material.ambient, base) << 14) + (1 << (Self::PLACE - 1)),
+            diffuse: level(material.diffuse, base),
+            specular: level(material.specular, highlight),
         }
     }
 
+    /// The sum, in which a level above the largest shows in the bits from [`OVER`] on.
     #[inline(always)]
-    fn mix(&self, intensity: Intensity) -> u8 {
-        // Two products below 2³⁰ and an ambient of at most 2²⁹ and a half level.
-        let sum = self.ambient + self.diffuse * intensity.diffuse + self.specular * intensity.specular;
-        (sum >> Self::SHIFT).min(Self::LARGEST) as u8
+    fn sum(&self, intensity: Intensity) -> u32 {
+        self.ambient + self.diffuse * intensity.diffuse + self.specular * intensity.specular
+    }
+
+    #[inline(always)]
+    fn saturated(sum: u32) -> u32 {
+        (sum >> Self::PLACE).min(Self::LARGEST)
+    }
+
+    #[inline(always)]
+    fn level_of(&self, intensity: Intensity) -> u8 {
+        Self::saturated(self.sum(intensity)) as u8
     }
 
     /// The level of a Q15 factor.
@@ -73,8 +86,14 @@ impl<const R: u32, const G: u32, const B: u32> Rgb<R, G, B> {
     }
 
     #[inline(always)]
-    fn mix(&self, intensity: Intensity) -> [u8; 3] {
-        [self.0.mix(intensity), self.1.mix(intensity), self.2.mix(intensity)]
+    fn mix(&self, intensity: Intensity) -> [u32; 3] {
+        let sums = [self.0.sum(intensity), self.1.sum(intensity), self.2.sum(intensity)];
+        let [r, g, b] = sums;
+        if (r | g | b) >> OVER == 0 {
+            [r >> Channel::<R>::PLACE, g >> Channel::<G>::PLACE, b >> Channel::<B>::PLACE]
+        } else {
+            [Channel::<R>::saturated(r), Channel::<G>::saturated(g), Channel::<B>::saturated(b)]
+        }
     }
 
     fn levels(color: Color) -> [u8; 3] {
@@ -84,16 +103,16 @@ impl<const R: u32, const G: u32, const B: u32> Rgb<R, G, B> {
 }
 
 impl Ink for Rgb888 {
-    type Paint = Rgb<8, 8, 8>;
+    type Paint<'m> = Rgb<8, 8, 8>;
 
-    fn paint(material: &Material) -> Self::Paint {
+    fn paint(material: &Material) -> Self::Paint<'_> {
         Rgb::new(material)
     }
 
     #[inline]
-    fn mix(paint: &Self::Paint, intensity: Intensity) -> Self {
+    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self {
         let [r, g, b] = paint.mix(intensity);
-        Self::new(r, g, b)
+        Self::new(r as u8, g as u8, b as u8)
     }
 
     fn plain(color: Color) -> Self {
@@ -102,17 +121,47 @@ impl Ink for Rgb888 {
     }
 }
 
-impl Ink for Rgb565 {
-    type Paint = Rgb<5, 6, 5>;
+/// A material in Rgb565: its channels, and its ramp for where no highlight shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Ramped<'m> {
+    channels: Rgb<5, 6, 5>,
+    ramp: &'m [u16; 256],
+}
 
-    fn paint(material: &Material) -> Self::Paint {
-        Rgb::new(material)
+impl<'m> Ramped<'m> {
+    fn new(material: &'m Material) -> Self {
+        Self { channels: Rgb::new(material), ramp: &material.ramp }
     }
 
-    #[inline]
-    fn mix(paint: &Self::Paint, intensity: Intensity) -> Self {
-        let [r, g, b] = paint.mix(intensity).map(u16::from);
-        Self::from(RawU16::new(r << 11 | g << 5 | b))
+    #[inline(always)]
+    fn mix(&self, intensity: Intensity) -> u16 {
+        if intensity.specular == 0 {
+            if let Some(pixel) = self.ramp.get((intensity.diffuse >> 6) as usize) {
+                return *pixel;
+            }
+        }
+        self.glossy(intensity)
+    }
+
+    /// With a highlight; apart, so that its nine coefficients do not crowd the registers of all other pixels.
+    #[inline(never)]
+    fn glossy(&self, intensity: Intensity) -> u16 {
+        let [r, g, b] = self.channels.mix(intensity);
+        (r << 11 | g << 5 | b) as u16
+    }
+}
+
+/// Diffuse light in 256 steps where no highlight shows: far below what the format resolves.
+impl Ink for Rgb565 {
+    type Paint<'m> = Ramped<'m>;
+
+    fn paint(material: &Material) -> Ramped<'_> {
+        Ramped::new(material)
+    }
+
+    #[inline(always)]
+    fn mix(paint: &Ramped<'_>, intensity: Intensity) -> Self {
+        Self::from(RawU16::new(paint.mix(intensity)))
     }
 
     fn plain(color: Color) -> Self {
@@ -123,15 +172,15 @@ impl Ink for Rgb565 {
 
 /// Rgb565 with the high byte first, as SPI panels take it: [`as_flattened`](slice::as_flattened) makes bytes of a row.
 impl Ink for [u8; 2] {
-    type Paint = Rgb<5, 6, 5>;
+    type Paint<'m> = Ramped<'m>;
 
-    fn paint(material: &Material) -> Self::Paint {
-        Rgb::new(material)
+    fn paint(material: &Material) -> Ramped<'_> {
+        Ramped::new(material)
     }
 
-    #[inline]
-    fn mix(paint: &Self::Paint, intensity: Intensity) -> Self {
-        <Rgb565 as Ink>::mix(paint, intensity).into_storage().to_be_bytes()
+    #[inline(always)]
+    fn mix(paint: &Ramped<'_>, intensity: Intensity) -> Self {
+        paint.mix(intensity).to_be_bytes()
     }
 
     fn plain(color: Color) -> Self {
@@ -155,15 +204,15 @@ fn luma(color: Color) -> u16 {
 }
 
 impl Ink for Gray8 {
-    type Paint = Gray<8>;
+    type Paint<'m> = Gray<8>;
 
-    fn paint(material: &Material) -> Self::Paint {
+    fn paint(material: &Material) -> Self::Paint<'_> {
         Gray::new(material)
     }
 
     #[inline]
-    fn mix(paint: &Self::Paint, intensity: Intensity) -> Self {
-        Self::new(paint.0.mix(intensity))
+    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self {
+        Self::new(paint.0.level_of(intensity))
     }
 
     fn plain(color: Color) -> Self {
@@ -172,15 +221,15 @@ impl Ink for Gray8 {
 }
 
 impl Ink for Gray4 {
-    type Paint = Gray<4>;
+    type Paint<'m> = Gray<4>;
 
-    fn paint(material: &Material) -> Self::Paint {
+    fn paint(material: &Material) -> Self::Paint<'_> {
         Gray::new(material)
     }
 
     #[inline]
-    fn mix(paint: &Self::Paint, intensity: Intensity) -> Self {
-        Self::new(paint.0.mix(intensity))
+    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self {
+        Self::new(paint.0.level_of(intensity))
     }
 
     fn plain(color: Color) -> Self {

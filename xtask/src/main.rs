@@ -1,2 +1,56 @@
-//! Commands.
-fn main() {}
+//! The project's own commands: `cargo xtask COMMAND`.
+//!
+//! Results go to stdout, progress to stderr. What a command needs and the machine lacks is installed first, where apt
+//! can do it; elsewhere the command says what to run.
+
+mod count;
+mod cycles;
+mod elf;
+mod firmware;
+mod install;
+mod oled;
+mod process;
+mod project;
+mod qemu;
+mod table;
+mod test;
+mod toolchain;
+
+use anyhow::Result;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", about = "The project's own commands", disable_help_subcommand = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The commands: each is a module with its `Arguments` and its `run`.
+#[derive(Subcommand)]
+enum Command {
+    Firmware(firmware::Arguments),
+    Cycles(cycles::Arguments),
+    Oled(oled::Arguments),
+    Test(test::Arguments),
+}
+
+fn run(command: Command) -> Result<()> {
+    match command {
+        Command::Firmware(arguments) => firmware::run(&arguments),
+        Command::Cycles(arguments) => cycles::run(&arguments),
+        Command::Oled(arguments) => oled::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments),
+    }
+}
+
+fn main() -> ExitCode {
+    match run(Arguments::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

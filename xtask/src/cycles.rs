@@ -1,0 +1,220 @@
+//! What rendering costs: instructions, cycles, RAM, stack and code, on each target, and that all render the same.
+
+use crate::count::{self, Count, Counts};
+use crate::elf::Elf;
+use crate::firmware::{self, Target, MEASURE, METHOD, SCENE, TARGETS};
+use crate::install::{self, Need};
+use crate::project::{self, progress};
+use crate::{process, table};
+use anyhow::{ensure, Context, Result};
+use serde_json::json;
+use std::process::Command;
+
+/// Count what rendering costs on each target, in QEMU, exactly repeatable.
+///
+/// Instructions and cycles are the mean of the scene's frames, from the begin of a frame to its last pixel in a row;
+/// the worst line is that of all frames. Cycles are those of a Cortex-M0+ with zero wait states. Code is all that the
+/// measuring firmware has in flash, without the mesh. BEAMSHADE_TOOLCHAIN=debian forces the compiler with which the
+/// recorded counts were made.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Print one JSON object a line.
+    #[arg(long)]
+    json: bool,
+    /// The scene.
+    #[arg(long, default_value = SCENE)]
+    scene: String,
+    /// The shading method.
+    #[arg(long, default_value = METHOD)]
+    method: String,
+    /// Measure this target alone, such as thumbv6m-none-eabi.
+    #[arg(long)]
+    target: Option<String>,
+    /// Show the dearest functions of each target, this many.
+    #[arg(long, value_name = "COUNT", default_value_t = 0)]
+    functions: usize,
+}
+
+/// What the measuring firmware says about itself.
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
+struct Report {
+    checksum: String,
+    mesh_bytes: u64,
+    ram: Vec<(String, u64)>,
+    stack_bytes: u64,
+}
+
+impl Report {
+    fn parse(text: &str) -> Result<Report> {
+        let mut report = Report::default();
+        for line in text.lines() {
+            match line.split(' ').collect::<Vec<_>>()[..] {
+                ["frame", _, _] => {}
+                ["checksum", sum] => report.checksum = sum.to_owned(),
+                ["mesh", bytes] => report.mesh_bytes = bytes.parse()?,
+                ["ram", name, bytes] => report.ram.push((name.to_owned(), bytes.parse()?)),
+                ["full", frame] => anyhow::bail!("the measured scene has no room for frame {frame}"),
+                ["stack", bytes] => report.stack_bytes = bytes.parse()?,
+                _ => anyhow::bail!("the measuring firmware says {line:?}"),
+            }
+        }
+        ensure!(!report.checksum.is_empty(), "the measuring firmware gave no checksum");
+        Ok(report)
+    }
+
+    fn ram_bytes(&self) -> u64 {
+        self.ram.iter().map(|(_, bytes)| bytes).sum()
+    }
+}
+
+/// One target's figures.
+struct Measured {
+    target: &'static Target,
+    elf: Elf,
+    report: Report,
+    counts: Counts,
+}
+
+impl Measured {
+    fn new(target: &'static Target, scene: &str, method: &str) -> Result<Measured> {
+        let elf = firmware::build(MEASURE, target.triple, &["firmware", scene, method])?;
+        let (said, counts) = count::run(target, &elf)?;
+        Ok(Measured { target, elf, report: Report::parse(&said)?, counts })
+    }
+
+    fn code_bytes(&self) -> u64 {
+        self.elf.flash_bytes().saturating_sub(self.report.mesh_bytes)
+    }
+
+    /// Cycles, where this core has a model of them.
+    fn cycles(&self, cycles: u64) -> Option<u64> {
+        self.target.model.map(|_| cycles)
+    }
+
+    fn worst_line(&self) -> Option<u64> {
+        self.cycles(self.counts.lines.iter().map(|line| line.cycles).max()?)
+    }
+}
+
+/// `cargo xtask cycles`.
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    install::ensure(&[Need::FirmwareCompiler, Need::Qemu])?;
+    let (scene, method) = (&arguments.scene, &arguments.method);
+    let targets = TARGETS.iter().filter(|target| arguments.target.as_deref().is_none_or(|wanted| wanted == target.triple));
+    let measured = targets.map(|target| Measured::new(target, scene, method)).collect::<Result<Vec<_>>>()?;
+    ensure!(!measured.is_empty(), "no such target; there are {}", TARGETS.map(|target| target.triple).join(", "));
+    let host = host(scene, method)?;
+
+    if arguments.json {
+        print_json(&measured, &host, scene, method);
+    } else {
+        println!("{scene}, {method}, mean of {} frames\n", measured[0].counts.frames.len());
+        print_totals(&measured, &host);
+        for one in &measured {
+            print_stages(one, arguments.functions);
+        }
+        print_ram(&measured[0].report);
+    }
+    let differs = measured.iter().find(|one| one.report.checksum != host);
+    ensure!(differs.is_none(), "{} renders other pixels than this machine", differs.map_or("", |one| one.target.triple));
+    Ok(())
+}
+
+/// The same for the scene and method that stand for all, as a check.
+///
+/// # Errors
+/// As [`run`] does: above all, if two targets render different pixels.
+pub(crate) fn check() -> Result<()> {
+    run(&Arguments { json: false, scene: SCENE.into(), method: METHOD.into(), target: None, functions: 0 })
+}
+
+/// The checksum of the same frames, rendered by this machine.
+fn host(scene: &str, method: &str) -> Result<String> {
+    progress(format!("rendering on this machine ({})", std::env::consts::ARCH));
+    let mut command = project::cargo();
+    command.args(["build", "--quiet", "--release", "--bin", "host", "--features", &format!("host,{scene},{method}")]);
+    command.arg("--manifest-path").arg(project::root().join(MEASURE.path).join("Cargo.toml"));
+    command.arg("--target-dir").arg(project::target()?.join("firmware"));
+    let files = process::build(&mut command)?;
+    let program = files.iter().find(|file| file.file_stem().is_some_and(|name| name == "host")).context("nothing was built")?;
+    Ok(Report::parse(&process::output(&mut Command::new(program))?)?.checksum)
+}
+
+fn print_json(measured: &[Measured], host: &str, scene: &str, method: &str) {
+    for one in measured {
+        let mean = one.counts.mean();
+        println!(
+            "{}",
+            json!({
+                "scene": scene, "method": method, "target": one.target.triple,
+                "instructions": mean.instructions, "cycles": one.cycles(mean.cycles), "worst_line_cycles": one.worst_line(),
+                "ram_bytes": one.report.ram_bytes(), "stack_bytes": one.report.stack_bytes, "code_bytes": one.code_bytes(),
+                "checksum": one.report.checksum,
+            })
+        );
+    }
+    println!(
+        "{}",
+        json!({
+            "scene": scene, "method": method, "target": std::env::consts::ARCH,
+            "instructions": null, "cycles": null, "worst_line_cycles": null,
+            "ram_bytes": null, "stack_bytes": null, "code_bytes": null,
+            "checksum": host,
+        })
+    );
+}
+
+fn print_totals(measured: &[Measured], host: &str) {
+    let mut rows = Vec::new();
+    for one in measured {
+        let mean = one.counts.mean();
+        rows.push(vec![
+            one.target.triple.to_owned(),
+            table::number(mean.instructions),
+            table::optional(one.cycles(mean.cycles)),
+            table::optional(one.worst_line()),
+            table::number(one.report.ram_bytes()),
+            table::number(one.report.stack_bytes),
+            table::number(one.code_bytes()),
+            one.report.checksum.clone(),
+        ]);
+    }
+    let mut last = vec![String::from("–"); 8];
+    last[0] = std::env::consts::ARCH.to_owned();
+    last[7] = host.to_owned();
+    rows.push(last);
+    table::print(&["target", "instructions", "cycles", "worst line", "RAM", "stack", "code", "checksum"], rows);
+}
+
+/// The mean frame by stage, and the dearest functions.
+fn print_stages(one: &Measured, functions: usize) {
+    let frames = one.counts.frames.len() as u64;
+    let all = one.counts.frames.iter().copied().sum::<Count>();
+    let row = |name: &str, count: Count| {
+        let (part, whole) = match one.target.model {
+            Some(_) => (count.cycles, all.cycles),
+            None => (count.instructions, all.instructions),
+        };
+        let share = format!("{:.1} %", 100.0 * part as f64 / whole.max(1) as f64);
+        let cycles = table::optional(one.cycles(count.cycles / frames));
+        vec![name.to_owned(), table::number(count.instructions / frames), cycles, share]
+    };
+    println!("{} by stage", one.target.triple);
+    table::print(
+        &["stage", "instructions", "cycles", "share"],
+        one.counts.stages.iter().map(|&(name, count)| row(name, count)).collect(),
+    );
+    if functions > 0 {
+        let dearest = one.counts.functions(&one.elf);
+        table::print(
+            &["function", "instructions", "cycles", "share"],
+            dearest.iter().take(functions).map(|(name, count)| row(name, *count)).collect(),
+        );
+    }
+}
+
+fn print_ram(report: &Report) {
+    println!("RAM by type");
+    let rows = report.ram.iter().map(|(name, bytes)| vec![name.clone(), table::number(*bytes)]).collect();
+    table::print(&["type", "bytes"], rows);
+}

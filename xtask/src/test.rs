@@ -1,0 +1,136 @@
+//! Everything that is checked before a change lands.
+
+use crate::firmware::{self, MEASURE, METHOD, OLED, OLED_TARGET, SCENE, TARGETS};
+use crate::install::{self, Need};
+use crate::project;
+use crate::{cycles, oled, process};
+use anyhow::{ensure, Result};
+use std::process::Command;
+use std::time::Instant;
+
+/// Check everything that CI checks: formatting, lints, documentation, tests, firmware, the emulated panel.
+///
+/// Goes on to the end whatever fails, and then says what did. Missing tools are installed first.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Only the steps with this in their name.
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+}
+
+/// A step, by name.
+type Step = (&'static str, fn() -> Result<()>);
+
+/// The steps, the quick ones first.
+const STEPS: [Step; 9] = [
+    ("formatting", formatting),
+    ("lints", lints),
+    ("documentation", documentation),
+    ("host tests", host_tests),
+    ("counter tests", counter_tests),
+    ("firmware", all_firmware),
+    ("no path to a panic", no_panic),
+    ("cycles and checksums", same_pixels),
+    ("emulated panel", emulated_panel),
+];
+
+/// Packages that are workspaces of their own.
+const APART: [&str; 3] = ["xtask/counter", "xtask/measure", "examples/lm3s6965-oled"];
+
+/// `cargo xtask test`.
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    install::ensure(&[Need::Lints, Need::FirmwareCompiler, Need::Qemu])?;
+    let (mut passed, mut failed) = (0, Vec::new());
+    for (name, step) in STEPS {
+        if arguments.only.as_ref().is_some_and(|text| !name.contains(text.as_str())) {
+            continue;
+        }
+        eprintln!("── {name}");
+        let begin = Instant::now();
+        let result = step();
+        let seconds = begin.elapsed().as_secs_f32();
+        match result {
+            Ok(()) => {
+                passed += 1;
+                println!("ok      {name} ({seconds:.1} s)");
+            }
+            Err(error) => {
+                println!("FAILED  {name} ({seconds:.1} s)\n{error:#}");
+                failed.push(name);
+            }
+        }
+    }
+    println!("{passed} passed, {} failed", failed.len());
+    ensure!(passed + failed.len() > 0, "no step has this in its name");
+    ensure!(failed.is_empty(), "failed: {}", failed.join(", "));
+    Ok(())
+}
+
+/// A cargo command in the repository; its output goes to stderr, as stdout is for the list of steps.
+fn cargo(arguments: &[&str]) -> Command {
+    let mut command = project::cargo();
+    command.args(arguments).current_dir(project::root()).stdout(std::io::stderr());
+    command
+}
+
+fn formatting() -> Result<()> {
+    process::run(&mut cargo(&["fmt", "--all", "--check"]))?;
+    for package in APART {
+        let manifest = format!("{package}/Cargo.toml");
+        process::run(&mut cargo(&["fmt", "--check", "--manifest-path", &manifest]))?;
+    }
+    Ok(())
+}
+
+fn lints() -> Result<()> {
+    process::run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"]))?;
+    // The measuring firmware's scenes and the plugin are for a PC as well.
+    let host = format!("host,{SCENE},{METHOD}");
+    for (package, features) in [("xtask/counter", ""), ("xtask/measure", &*host)] {
+        let mut command = cargo(&["clippy", "--features", features, "--manifest-path"]);
+        command.arg(format!("{package}/Cargo.toml")).arg("--target-dir").arg(project::target()?.join("counter"));
+        process::run(command.args(["--", "--deny", "warnings"]))?;
+    }
+    Ok(())
+}
+
+fn documentation() -> Result<()> {
+    process::run(cargo(&["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "--deny warnings"))
+}
+
+fn host_tests() -> Result<()> {
+    process::run(&mut cargo(&["test", "--workspace"]))
+}
+
+fn counter_tests() -> Result<()> {
+    let mut command = cargo(&["test", "--manifest-path", "xtask/counter/Cargo.toml", "--target-dir"]);
+    process::run(command.arg(project::target()?.join("counter")))
+}
+
+/// The OLED board's firmware as it is for hardware; the measuring firmware is built where it is run.
+fn all_firmware() -> Result<()> {
+    firmware::build(OLED, OLED_TARGET, &[]).map(|_| ())
+}
+
+/// That the measuring firmware links shows something only if one with a path to a panic does not.
+fn no_panic() -> Result<()> {
+    for target in &TARGETS {
+        firmware::build(MEASURE, target.triple, &["firmware", SCENE, METHOD])?;
+        let mut command = firmware::command(MEASURE, target.triple, &["firmware", SCENE, METHOD, "bad"])?;
+        let output = command.output()?;
+        ensure!(!output.status.success(), "{}: a program with a path to a panic was linked", target.triple);
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        ensure!(complaint.contains("a_path_leads_to_a_panic"), "{}: it failed in another way:\n{complaint}", target.triple);
+    }
+    Ok(())
+}
+
+fn same_pixels() -> Result<()> {
+    cycles::check()
+}
+
+fn emulated_panel() -> Result<()> {
+    let (first, later) = (oled::show(0)?, oled::show(7)?);
+    ensure!(first != later, "the picture on the panel does not move");
+    Ok(())
+}
