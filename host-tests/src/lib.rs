@@ -14,6 +14,7 @@ pub mod image;
 pub mod library;
 pub mod reference;
 pub mod scenes;
+pub mod shapes;
 
 mod compare;
 mod format;

@@ -6,7 +6,7 @@ use embedded_graphics::pixelcolor::{Gray8, Rgb565, Rgb888};
 use fastrand::Rng;
 use glam::{DMat3, DVec3};
 use host_tests::reference::{render, Camera, Light, Material, Mesh, Normals, Object, Options, Pose, Scene};
-use host_tests::{image, scenes, Format, Measures, Owner};
+use host_tests::{image, scenes, shapes, Format, Measures, Owner};
 
 const CORRECT: Options = Options { normals: Normals::PerspectiveCorrect, snap: None };
 
@@ -180,29 +180,9 @@ fn rays_see_the_same_triangles() {
     assert!(checked > 60_000 && clipped_seen > 10_000 && background > 5_000, "{checked} {clipped_seen} {background}");
 }
 
-/// A unit sphere of so many steps from pole to pole, twice as many around.
-fn sphere(steps: u32) -> Mesh {
-    let angle = |step: u32| (f64::from(step)).to_radians() * 180.0 / f64::from(steps);
-    let point = |latitude: u32, longitude: u32| {
-        let (sine, cosine) = angle(latitude).sin_cos();
-        let turn = angle(longitude);
-        DVec3::new(sine * turn.sin(), cosine, sine * turn.cos())
-    };
-    let around = 2 * steps;
-    let points: Vec<_> = (0..=steps).flat_map(|latitude| (0..around).map(move |longitude| point(latitude, longitude))).collect();
-    let quad = |latitude: u32, longitude: u32| {
-        let next = (longitude + 1) % around;
-        let [a, b] = [latitude * around + longitude, latitude * around + next];
-        let [c, d] = [a + around, b + around];
-        [[a, c, d], [a, d, b]]
-    };
-    let triangles = (0..steps).flat_map(|latitude| (0..around).flat_map(move |longitude| quad(latitude, longitude))).collect();
-    Mesh::new(points.clone(), points, triangles)
-}
-
 #[test]
 fn a_sphere_is_shaded_by_its_formula() {
-    let mesh = sphere(90);
+    let mesh = shapes::sphere(90);
     let mut scene = scene(&mesh, camera(0.1));
     let camera = scene.camera;
     // Off the middle of the picture, turned and enlarged.

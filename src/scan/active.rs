@@ -99,16 +99,10 @@ impl Active {
         true
     }
 
-    /// The first pixel that it covers on the line.
+    /// The first pixel that it covers on the line, and the first one after; no pixels if the latter is not larger.
     #[inline(always)]
-    pub(crate) const fn begin(&self) -> i32 {
-        self.left.x as i32
-    }
-
-    /// The first pixel after those that it covers.
-    #[inline(always)]
-    pub(crate) const fn stop(&self) -> i32 {
-        self.right.x as i32
+    pub(crate) const fn extent(&self) -> (i16, i16) {
+        (self.left.x, self.right.x)
     }
 
     /// Makes `depth` ready.

@@ -6,11 +6,14 @@ use super::{
     picture::Picture,
 };
 
-/// An active triangle's place in the order along the line.
+/// Where an active triangle is on the line, and where in the list.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(4))]
 pub(crate) struct Place {
     /// The first pixel that it covers.
     pub(crate) begin: i16,
+    /// The first pixel after those that it covers.
+    pub(crate) stop: i16,
     /// Its slot.
     pub(crate) slot: u16,
 }
@@ -27,7 +30,7 @@ pub(crate) struct ActiveList<const N: usize> {
 impl<const N: usize> ActiveList<N> {
     /// A list that is to be [cleared](Self::clear) before its first use: all zeros, so that a `static` takes no flash.
     pub(crate) const fn new() -> Self {
-        Self { slots: [Active::NONE; N], order: [Place { begin: 0, slot: 0 }; N], used: 0 }
+        Self { slots: [Active::NONE; N], order: [Place { begin: 0, stop: 0, slot: 0 }; N], used: 0 }
     }
 
     pub(crate) fn clear(&mut self) {
@@ -69,7 +72,7 @@ impl<const N: usize> ActiveList<N> {
                     swap(&mut self.order, kept, i);
                 }
                 if let Some(place) = self.order.get_mut(kept) {
-                    place.begin = active.begin() as i16;
+                    (place.begin, place.stop) = active.extent();
                 }
                 kept += 1;
             }
@@ -101,14 +104,19 @@ impl<const N: usize> ActiveList<N> {
     fn insert(&mut self, active: Active) {
         let Some(order) = self.order.get_mut(..=self.used) else { return };
         let Some((free, others)) = order.split_last_mut() else { return };
-        let place = Place { begin: active.begin() as i16, slot: free.slot };
+        let (begin, stop) = active.extent();
+        let place = Place { begin, stop, slot: free.slot };
         let Some(slot) = self.slots.get_mut(usize::from(place.slot)) else { return };
         *slot = active;
         self.used += 1;
         let at = others.partition_point(|other| other.begin <= place.begin);
-        // The others move up by one; the free slot's place, the last, is overwritten.
-        let mut moving = place;
-        order.iter_mut().skip(at).for_each(|here| core::mem::swap(here, &mut moving));
+        // The others move up by one, over the free slot's place, the last.
+        let Some(after) = order.get_mut(at..) else { return };
+        let Some(count) = after.len().checked_sub(1) else { return };
+        after.copy_within(..count, 1);
+        if let Some(first) = after.first_mut() {
+            *first = place;
+        }
     }
 
     /// Takes a triangle out of the order; its slot becomes the first free one.

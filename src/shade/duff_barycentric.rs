@@ -100,7 +100,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
                 let root = inverse_root(r.bend);
                 let mut intensity = Intensity::default();
                 for ([diffuse, specular], strength) in r.dots.iter_mut().zip(surface.intensities) {
-                    // Q15 · Q16: cosines in Q31.
+                    // Q16 · Q15: cosines in Q31.
                     intensity.diffuse += lit(diffuse[0]).wrapping_mul(root) >> 17;
                     intensity.specular += (power.at(lit(specular[0]).wrapping_mul(root)) * u32::from(*strength)) >> 15;
                     diffuse[0] = diffuse[0].wrapping_add(diffuse[1]);
@@ -143,8 +143,8 @@ fn is_shiny<const LIGHTS: usize>(triangle: &Triangle<LIGHTS>, surface: &Surface<
     let [e01, e12, e20] = triangle.edges;
     // 2/3 of a Q15 number in Q28, without a division.
     let bend = u32::from(e01.max(e12).max(e20)) * (16384 / 3 + 1);
-    // Q14 · Q16, rounded up a little, against Q31.
-    let cosine = ((most + 2) * (inverse_root(bend as i32) + 8)).saturating_mul(2);
+    // Q14 · Q15, rounded up a little, as Q31.
+    let cosine = ((most + 2) * (inverse_root(bend as i32) + 4)).saturating_mul(4);
     surface.material.power.shows(cosine)
 }
 

@@ -58,7 +58,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for Gouraud {
     fn run<P>(mut r: Registers, _: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P) {
         for pixel in pixels {
             // A clamp at the top is not needed: the corners are below it, and rounding cannot pass them by a whole step.
-            *pixel = ink(Intensity { diffuse: lit(r.diffuse) >> 1, specular: lit(r.specular) >> 1 });
+            *pixel = ink(Intensity { diffuse: lit(r.diffuse) >> 2, specular: lit(r.specular) >> 2 });
             r.diffuse = r.diffuse.wrapping_add(r.diffuse_step);
             r.specular = r.specular.wrapping_add(r.specular_step);
         }

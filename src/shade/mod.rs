@@ -64,8 +64,8 @@ pub trait Shade<const LIGHTS: usize> {
     fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P);
 }
 
-/// A dot product in Q24, clamped at 0, as Q15.
+/// A dot product in Q24, clamped at 0, as Q16.
 #[inline(always)]
 const fn lit(dot: i32) -> u32 {
-    ((dot & !(dot >> 31)) >> 9) as u32
+    ((dot & !(dot >> 31)) >> 8) as u32
 }

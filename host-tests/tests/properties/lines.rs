@@ -1,0 +1,163 @@
+//! What a line may touch, and that its pixels depend on the scene alone.
+
+use std::cell::Cell;
+use std::ops::Range;
+
+use beamshade::{
+    Background, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Ink, Intensity, Line, Lines, Material, Scanner, Shade,
+};
+use embedded_graphics::pixelcolor::Rgb565;
+use host_tests::library;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+use crate::cases;
+use crate::scene::{scenes, Scene};
+
+/// A pixel that knows when its value was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Made {
+    /// Counted from 1; 0 before anything was made.
+    time: u32,
+    /// By shading, not as background.
+    shaded: bool,
+}
+
+thread_local! { static NOW: Cell<u32> = const { Cell::new(0) } }
+
+impl Made {
+    const NEVER: Self = Self { time: 0, shaded: false };
+
+    fn now(shaded: bool) -> Self {
+        NOW.set(NOW.get() + 1);
+        Self { time: NOW.get(), shaded }
+    }
+}
+
+impl Ink for Made {
+    type Paint = ();
+
+    fn paint(_: &Material) {}
+
+    fn mix((): &(), _: Intensity) -> Self {
+        Self::now(true)
+    }
+
+    fn plain(_: Color) -> Self {
+        Self::now(false)
+    }
+}
+
+/// The spans of a line.
+fn spans<S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(
+    lines: &mut Lines<'_, ACTIVE, S, LIGHTS>,
+    y: u16,
+) -> Vec<Range<usize>> {
+    let mut spans = Vec::new();
+    lines.spans(y, |span, _| spans.push(span.start.into()..span.end.into()));
+    spans
+}
+
+/// Draws lines of a picture in that order and compares them with those drawn from top to bottom.
+fn same_in_any_order<S: Shade<1>, const ACTIVE: usize>(scene: &Scene, order: &[Index]) {
+    scene.show(|picture| {
+        let mut scanner = Box::<Scanner<ACTIVE, S>>::default();
+        let mut lines = scanner.start(picture);
+        let size = picture.viewport().size;
+        let draw = |lines: &mut Lines<'_, ACTIVE, S>, y| {
+            let mut row = vec![Rgb565::new(1, 2, 3); size.width as usize];
+            let Line { active, spans, dropped, .. } = lines.line(y, &mut row);
+            (row, active, spans, dropped)
+        };
+        let expected: Vec<_> = (0..size.height as u16).map(|y| draw(&mut lines, y)).collect();
+        for y in order {
+            let y = y.index(expected.len());
+            assert_eq!(draw(&mut lines, y as u16), expected[y], "line {y}");
+        }
+    });
+}
+
+proptest! {
+    #![proptest_config(cases(128))]
+
+    #[test]
+    fn each_pixel_is_stored_once_from_left_to_right(scene in scenes::<1>(), longer in 0..3usize) {
+        scene.show(|picture| {
+            let size = picture.viewport().size;
+            let width = size.width as usize;
+            let mut scanner = Box::<Scanner<256>>::default();
+            let mut lines = scanner.start(picture);
+            for y in 0..size.height as u16 {
+                let mut row = vec![Made::NEVER; width + longer];
+                NOW.set(0);
+                let line = lines.line(y, &mut row);
+                let spans = spans(&mut lines, y);
+
+                let (inside, beyond) = row.split_at(width);
+                assert_eq!(beyond, vec![Made::NEVER; longer]);
+                assert!(spans.iter().all(|span| span.start < span.end && span.end <= width), "{spans:?}");
+                assert!(spans.windows(2).all(|pair| pair[0].end <= pair[1].start), "{spans:?}");
+                assert_eq!(usize::from(line.spans), spans.len());
+                for (x, pixel) in inside.iter().enumerate() {
+                    assert_eq!(pixel.shaded, spans.iter().any(|span| span.contains(&x)), "{x}");
+                    assert_eq!(*pixel == Made::NEVER, !pixel.shaded && scene.background == Background::Keep, "{x}");
+                }
+                // What was made later lies farther right; one fill makes many, and one that is empty makes none.
+                let made: Vec<_> = inside.iter().filter(|pixel| pixel.time > 0).collect();
+                assert!(made.windows(2).all(|pair| pair[0].time < pair[1].time || (pair[0] == pair[1] && !pair[0].shaded)));
+                let fills = spans.len() as u32 + 1;
+                let shaded = made.iter().filter(|pixel| pixel.shaded).count() as u32;
+                assert!((shaded..=shaded + fills).contains(&NOW.get()), "something was stored twice");
+            }
+        });
+    }
+
+    #[test]
+    fn a_shorter_row_gets_the_same_pixels(scene in scenes::<1>(), short in any::<Index>()) {
+        scene.show(|picture| {
+            let size = picture.viewport().size;
+            let whole = library::read::<Rgb565, DuffBarycentric, 256, 1>(&mut Scanner::new().start(picture));
+            let mut scanner = Box::<Scanner<256>>::default();
+            let mut lines = scanner.start(picture);
+            for (y, expected) in whole.color.chunks(whole.width).enumerate() {
+                let mut row = vec![Rgb565::default(); short.index(size.width as usize)];
+                lines.line(y as u16, &mut row);
+                assert_eq!(row, expected[..row.len()]);
+            }
+            let mut below = [Rgb565::new(1, 2, 3); 4];
+            let line = lines.line(size.height as u16, &mut below);
+            assert_eq!((below, line.active, line.spans), ([Rgb565::new(1, 2, 3); 4], 0, 0));
+        });
+    }
+
+    #[test]
+    fn any_order_of_lines_gives_the_same_pixels(scene in scenes::<1>(), order in vec(any::<Index>(), 1..30)) {
+        same_in_any_order::<DuffBarycentric, 256>(&scene, &order);
+        same_in_any_order::<Choose<Gouraud, Flat>, 256>(&scene, &order);
+        same_in_any_order::<DuffBarycentric, 5>(&scene, &order);
+    }
+
+    #[test]
+    fn what_was_drawn_before_leaves_no_trace(before in scenes::<2>(), scene in scenes::<2>(), stop in any::<Index>()) {
+        type Drawn = Choose<DuffBarycentric, Gouraud>;
+        let [old, new] = [before.meshes(), scene.meshes()];
+        let mut fresh = Box::<Frame<'_, 256, 256, 256, 2, 8, 64>>::default();
+        let mut frame = fresh.clone();
+        let expected = (scene.fill(&new, &mut fresh), {
+            library::read::<Rgb565, Drawn, 64, 2>(&mut Scanner::new().start(fresh.picture()))
+        });
+
+        let mut scanner = Box::<Scanner<64, Drawn, 2>>::default();
+        before.fill(&old, &mut frame);
+        let mut lines = scanner.start(frame.picture());
+        for y in 0..stop.index(256) {
+            lines.line(y as u16, &mut [Rgb565::default(); 100]);
+        }
+        for _ in 0..2 {
+            let room = scene.fill(&new, &mut frame);
+            let drawn = library::read(&mut scanner.start(frame.picture()));
+            assert!((room, drawn) == expected);
+        }
+    }
+}
