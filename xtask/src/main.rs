@@ -3,6 +3,7 @@
 //! Results go to stdout, progress to stderr. What a command needs and the machine lacks is installed first, where apt
 //! can do it; elsewhere the command says what to run.
 
+mod accuracy;
 mod count;
 mod cycles;
 mod elf;
@@ -30,6 +31,7 @@ struct Arguments {
 /// The commands: each is a module with its `Arguments` and its `run`.
 #[derive(Subcommand)]
 enum Command {
+    Accuracy(accuracy::Arguments),
     Firmware(firmware::Arguments),
     Cycles(cycles::Arguments),
     Oled(oled::Arguments),
@@ -38,6 +40,7 @@ enum Command {
 
 fn run(command: Command) -> Result<()> {
     match command {
+        Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Oled(arguments) => oled::run(&arguments),

@@ -5,6 +5,12 @@ use crate::install::{self, Need};
 use crate::project::{self, progress};
 use crate::qemu::{Emulator, Exchange, LM3S6965};
 use anyhow::{bail, ensure, Context, Result};
+use beamshade::{Camera, Frame, Light, Pose, Rotation, Scanner, Turn};
+use beamshade_mesh::{Model, Options};
+use embedded_graphics::{
+    geometry::Size,
+    pixelcolor::{Gray4, GrayColor},
+};
 use image::{GrayImage, ImageFormat};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -61,6 +67,41 @@ impl Panel {
     }
 }
 
+/// The same frame as this machine renders it: the scene of the board's `main.rs`, described once more.
+///
+/// # Errors
+/// If the model is not there, or has no room.
+pub(crate) fn expected(frame: u32) -> Result<Panel> {
+    let white = Options { base: Some([1.0; 3]), ..Options::default() };
+    let model = Model::load(project::root().join("examples/models/teapot-880.obj"), &white)?.quantize()?;
+    let mesh = model.mesh();
+    let camera = Camera::new(Size::new(WIDTH, HEIGHT)).field_of_view(Turn::degrees(40)).at_distance(2.2);
+    let mut geometry = Frame::<481, 512, { HEIGHT as usize }>::new();
+    geometry.begin(&camera, &[Light::directional([-0.5, 0.7, 0.6])])?;
+    let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(Turn::degrees(6 * frame as i32));
+    geometry.add(&mesh, &Pose::turned(rotation))?;
+    let mut scanner = Scanner::<96>::new();
+    let mut lines = scanner.start(geometry.picture());
+    let mut greys = Vec::new();
+    for y in 0..HEIGHT as u16 {
+        let mut row = [Gray4::BLACK; WIDTH as usize];
+        ensure!(lines.line(y, &mut row).dropped == 0, "line {y} of frame {frame} has no room");
+        greys.extend(row.map(|pixel| pixel.luma()));
+    }
+    Ok(Panel { greys })
+}
+
+/// Checks that the emulated panel shows what this machine renders, pixel for pixel.
+///
+/// # Errors
+/// If it does not.
+pub(crate) fn check(panel: &Panel, frame: u32) -> Result<()> {
+    let expected = expected(frame)?;
+    let wrong = panel.greys.iter().zip(&expected.greys).filter(|(a, b)| a != b).count();
+    ensure!(wrong == 0, "{wrong} of {} pixels of frame {frame} on the panel differ from this machine's", expected.greys.len());
+    Ok(())
+}
+
 /// `cargo xtask oled`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let panel = show(arguments.frame)?;
@@ -73,6 +114,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     panel.picture().save_with_format(&path, ImageFormat::Png).with_context(|| path.display().to_string())?;
     println!("{}: frame {} on the emulated panel, {WIDTH} x {HEIGHT} in 16 greys", project::shown(&path), arguments.frame);
+    check(&panel, arguments.frame)?;
+    println!("it equals what this machine renders, pixel for pixel");
     Ok(())
 }
 

@@ -132,5 +132,6 @@ fn same_pixels() -> Result<()> {
 fn emulated_panel() -> Result<()> {
     let (first, later) = (oled::show(0)?, oled::show(7)?);
     ensure!(first != later, "the picture on the panel does not move");
-    Ok(())
+    oled::check(&first, 0)?;
+    oled::check(&later, 7)
 }

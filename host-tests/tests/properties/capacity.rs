@@ -1,0 +1,144 @@
+//! Out of room: what is said, and what is still drawn.
+
+use beamshade::{Background, Camera, Color, DuffBarycentric, Frame, Full, Light, Pose, Rotation, Scanner, Turn};
+use embedded_graphics::geometry::Size;
+use embedded_graphics::pixelcolor::Rgb888;
+use host_tests::library::read;
+use host_tests::{Owner, Picture};
+use proptest::prelude::*;
+
+use crate::cases;
+use crate::scene::{scenes, Scene, Shape};
+
+/// The drawn picture of a frame.
+fn draw<const V: usize, const T: usize, const L: usize, const O: usize, const M: usize>(
+    frame: &Frame<'_, V, T, L, 1, O, M>,
+) -> Picture<Rgb888> {
+    read::<_, DuffBarycentric, 512, 1>(&mut Scanner::new().start(frame.picture()))
+}
+
+/// The objects that are seen.
+fn seen(picture: &Picture<Rgb888>) -> Vec<u32> {
+    let mut objects: Vec<_> = picture.owner.iter().flatten().map(|owner| owner.object).collect();
+    objects.sort_unstable();
+    objects.dedup();
+    objects
+}
+
+/// Columns of one triangle each, side by side from left to right before an unturned camera; the near end is that near.
+fn columns(nearest: &[f32]) -> Scene {
+    let object = |(i, near): (usize, &f32)| {
+        let shape = Shape::plain(vec![[-2000, -30000, 0], [2000, -30000, 0], [0, 30000, 0], [0, 0, 20000]], vec![[0, 1, 3]]);
+        let shape = Shape { triangles: vec![[0, 1, 2]], ..shape };
+        let x = (i as f32 - (nearest.len() - 1) as f32 / 2.0) * 0.2;
+        (shape, Pose::IDENTITY.at([x * (3.0 - near) / 3.0, 0.0, *near]))
+    };
+    Scene {
+        camera: Camera::new(Size::new(64, 48)),
+        lights: [Light::OFF],
+        background: Background::Plain(Color::BLACK),
+        objects: nearest.iter().enumerate().map(object).collect(),
+    }
+}
+
+#[test]
+fn a_frame_of_too_few_lines_draws_the_first_ones() {
+    let scene = columns(&[0.0, 0.5]);
+    let meshes = scene.meshes();
+    let mut frame = Frame::<'_, 64, 64, 20>::new();
+    assert_eq!(frame.begin(&scene.camera, &scene.lights), Err(Full::Lines { fitted: 20 }));
+    assert_eq!(scene.fill(&meshes, &mut frame), [Ok(()), Ok(())]);
+    let whole = scene.show(|picture| read::<Rgb888, DuffBarycentric, 512, 1>(&mut Scanner::new().start(picture)));
+    let drawn = draw(&frame);
+    assert_eq!((drawn.width, drawn.height), (64, 20));
+    assert!(drawn.color == whole.color[..64 * 20] && drawn.owner == whole.owner[..64 * 20]);
+}
+
+#[test]
+fn objects_beyond_the_frames_are_left_out_but_numbered() {
+    let mut scene = columns(&[0.0; 5]);
+    scene.objects[1].1 = Pose::IDENTITY.at([100.0, 0.0, 0.0]);
+    let meshes = scene.meshes();
+    let mut frame = Frame::<'_, 64, 64, 48, 1, 3>::new();
+    // The one out of sight needs no room.
+    assert_eq!(scene.fill(&meshes, &mut frame), [Ok(()), Ok(()), Ok(()), Ok(()), Err(Full::Objects { fitted: 3 })]);
+    assert_eq!(seen(&draw(&frame)), [0, 2, 3]);
+}
+
+#[test]
+fn an_object_of_too_many_vertices_is_left_out_whole() {
+    let mut scene = columns(&[0.0; 3]);
+    let [_, large, _] = &mut scene.objects[..] else { unreachable!() };
+    large.0.positions = large.0.positions.repeat(2);
+    large.0.normals = large.0.normals.repeat(2);
+    let meshes = scene.meshes();
+    let mut frame = Frame::<'_, 11, 64, 48>::new();
+    assert_eq!(scene.fill(&meshes, &mut frame), [Ok(()), Err(Full::Vertices { fitted: 7 }), Ok(())]);
+    assert_eq!(seen(&draw(&frame)), [0, 2]);
+}
+
+/// Triangles with two corners behind the eye, and the third before it: each is cut to one triangle with two new corners.
+fn clipped() -> Scene {
+    let mut scene = columns(&[0.0]);
+    let corners = |i: i16| [[6000 * i - 18000, -300, -32000], [6000 * i - 18000, -400, 32000], [6000 * i - 15000, -400, 32000]];
+    let positions = (0..6).flat_map(corners).collect();
+    let triangles = (0..6).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    scene.objects = vec![(Shape::plain(positions, triangles), Pose::IDENTITY.at([0.0, 0.0, 2.5]))];
+    scene
+}
+
+#[test]
+fn triangles_to_be_clipped_need_room_for_triangles_and_corners() {
+    fn fill<const V: usize, const M: usize>() -> (Vec<Result<(), Full>>, Picture<Rgb888>) {
+        let scene = clipped();
+        let meshes = scene.meshes();
+        let mut frame = Frame::<'_, V, 64, 48, 1, 4, M>::new();
+        (scene.fill(&meshes, &mut frame), draw(&frame))
+    }
+    let triangles = |picture: &Picture<Rgb888>| {
+        let mut triangles: Vec<_> = picture.owner.iter().flatten().map(|owner| owner.triangle).collect();
+        triangles.sort_unstable();
+        triangles.dedup();
+        triangles
+    };
+    let (enough, whole) = fill::<30, 6>();
+    assert_eq!((enough, triangles(&whole)), (vec![Ok(())], vec![0, 1, 2, 3, 4, 5]));
+    let (few_triangles, drawn) = fill::<30, 4>();
+    assert_eq!((few_triangles, triangles(&drawn)), (vec![Err(Full::Made { fitted: 4, left_out: 2 })], vec![0, 1, 2, 3]));
+    let (few_corners, drawn) = fill::<25, 6>();
+    assert_eq!((few_corners, triangles(&drawn)), (vec![Err(Full::Made { fitted: 3, left_out: 3 })], vec![0, 1, 2]));
+}
+
+proptest! {
+    #![proptest_config(cases(128))]
+
+    /// A frame with room for eight triangles draws the picture of the triangles up to the eighth that faces the eye.
+    #[test]
+    fn the_first_triangles_that_fit_are_drawn(scene in scenes::<1>()) {
+        let facing = |scene: &Scene| scene.show(|picture| picture.triangles());
+        let mut scene = Scene { objects: scene.objects[..1].to_vec(), ..scene };
+        let meshes = scene.meshes();
+        let mut frame = Box::<Frame<'_, 256, 8, 1024, 1, 1, 0>>::default();
+        let result = scene.fill(&meshes, &mut frame)[0];
+        let drawn = draw(&frame);
+        // Clipping has its own room.
+        prop_assume!(!matches!(result, Err(Full::Made { .. })));
+
+        let all = facing(&scene);
+        let expected = if all > 8 { Err(Full::Triangles { fitted: 8, left_out: all as u16 - 8 }) } else { Ok(()) };
+        let shape = &mut scene.objects[0].0;
+    }
+
+    /// On lines that all of them cross, the nearest are left, in whatever order they came.
+    #[test]
+    fn a_full_line_keeps_the_nearest(nearest in Just([-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5f32]).prop_shuffle()) {
+        let scene = columns(&nearest);
+        scene.show(|picture| {
+            let mut scanner = Scanner::<3>::new();
+            let mut lines = scanner.start(picture);
+            let line = lines.line(24, &mut [Rgb888::default(); 64]);
+            assert_eq!((line.active, line.spans, line.dropped), (3, 3, 4));
+            lines.spans(24, |_, source| assert!(nearest[usize::from(source.object)] > 0.2, "{source:?}"));
+        });
+    }
+}
