@@ -35,6 +35,6 @@ fn both_teapots_are_owned_by_the_right_triangles() {
     let mesh = scenes::teapot_5560().unwrap();
     let all = accuracy::standard::<DuffBarycentric>(&mesh, |_| ()).unwrap();
     let worst = accuracy::worst(&rows(&all, "gray8")).unwrap();
-    assert!(worst.psnr_db >= 60.0, "{worst:?}");
+    assert!(worst.psnr_db >= 58.0, "{worst:?}");
     assert!(worst.same_owner_share >= 0.98, "{worst:?}");
 }

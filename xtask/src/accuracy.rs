@@ -50,9 +50,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         rows.iter().for_each(|row| println!("{}", object(arguments, row)));
     } else {
         println!("{}, {}, worst of {} frames\n", arguments.scene, arguments.method, scenes::FRAMES);
-        print(&rows);
+        println!("{}\n", text(&rows));
     }
     Ok(())
+}
+
+/// The table of the standard scene by the default method, for the README.
+///
+/// # Errors
+/// If the scene cannot be drawn.
+pub(crate) fn summary() -> Result<String> {
+    progress(format!("{SCENE}, {METHOD}"));
+    Ok(text(&accuracy::standard::<DuffBarycentric>(&scenes::teapot_880()?, |_| ())?))
 }
 
 /// A row as JSON; a PSNR without any difference is null.
@@ -68,7 +77,7 @@ fn object(arguments: &Arguments, row: &Row) -> Value {
 }
 
 /// The worst frame of each output and truth, measure by measure; owners as means.
-fn print(rows: &[Row]) {
+fn text(rows: &[Row]) -> String {
     let mut lines = Vec::new();
     for output in ["gray8", "rgb565"] {
         for truth in [Truth::Ideal, Truth::Perspective, Truth::Quantized] {
@@ -92,5 +101,5 @@ fn print(rows: &[Row]) {
         }
     }
     let head = ["output", "truth", "PSNR dB", "below rounding dB", "mean", "max", "over 4 %", "same owner %", "wrong owner", "wrong neighbour"];
-    table::print(&head, lines);
+    table::text(&head, lines)
 }

@@ -37,7 +37,9 @@ impl Stage {
         // Up to generic arguments or a trait, which may well name another stage's types.
         let path = name.trim_start_matches(['<', '&', '[', '(']).split(['<', '>', ' ']).next().unwrap_or_default();
         let within = |module: &str| path.strip_prefix(module).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"));
-        let function = name.rsplit("::").find(|part| !part.starts_with(['{', '<'])).unwrap_or_default();
+        // The last part of the path that is a name, without generic arguments, whose paths have parts of their own.
+        let bare = name.split("::<").next().unwrap_or_default();
+        let function = bare.rsplit("::").find(|part| !part.starts_with(['{', '<'])).unwrap_or_default();
         self.modules.iter().any(|module| within(module)) || within("beamshade") && self.functions.contains(&function)
     }
 }

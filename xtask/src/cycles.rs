@@ -109,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         print_json(&measured, &host, scene, method);
     } else {
         println!("{scene}, {method}, mean of {} frames\n", measured[0].counts.frames.len());
-        print_totals(&measured, &host);
+        println!("{}\n", totals(&measured, &host));
         for one in &measured {
             print_stages(one, arguments.functions);
         }
@@ -126,6 +126,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 /// As [`run`] does: above all, if two targets render different pixels.
 pub(crate) fn check() -> Result<()> {
     run(&Arguments { json: false, scene: SCENE.into(), method: METHOD.into(), target: None, functions: 0 })
+}
+
+/// The table of the standard scene by the default method, for the README.
+///
+/// # Errors
+/// As [`run`] does.
+pub(crate) fn summary() -> Result<String> {
+    install::ensure(&[Need::FirmwareCompiler, Need::Qemu])?;
+    let measured = TARGETS.iter().map(|target| Measured::new(target, SCENE, METHOD)).collect::<Result<Vec<_>>>()?;
+    Ok(totals(&measured, &host(SCENE, METHOD)?))
 }
 
 /// The checksum of the same frames, rendered by this machine.
@@ -164,7 +174,8 @@ fn print_json(measured: &[Measured], host: &str, scene: &str, method: &str) {
     );
 }
 
-fn print_totals(measured: &[Measured], host: &str) {
+/// One line for each target, and one for this machine.
+fn totals(measured: &[Measured], host: &str) -> String {
     let mut rows = Vec::new();
     for one in measured {
         let mean = one.counts.mean();
@@ -183,7 +194,7 @@ fn print_totals(measured: &[Measured], host: &str) {
     last[0] = std::env::consts::ARCH.to_owned();
     last[7] = host.to_owned();
     rows.push(last);
-    table::print(&["target", "instructions", "cycles", "worst line", "RAM", "stack", "code", "checksum"], rows);
+    table::text(&["target", "instructions", "cycles", "worst line", "RAM", "stack", "code", "checksum"], rows)
 }
 
 /// The mean frame by stage, and the dearest functions.

@@ -6,6 +6,7 @@
 mod accuracy;
 mod count;
 mod cycles;
+mod demo;
 mod elf;
 mod firmware;
 mod install;
@@ -13,6 +14,7 @@ mod oled;
 mod process;
 mod project;
 mod qemu;
+mod readme;
 mod table;
 mod test;
 mod toolchain;
@@ -34,7 +36,9 @@ enum Command {
     Accuracy(accuracy::Arguments),
     Firmware(firmware::Arguments),
     Cycles(cycles::Arguments),
+    Demo(demo::Arguments),
     Oled(oled::Arguments),
+    Readme(readme::Arguments),
     Test(test::Arguments),
 }
 
@@ -43,7 +47,9 @@ fn run(command: Command) -> Result<()> {
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
+        Command::Demo(arguments) => demo::run(&arguments),
         Command::Oled(arguments) => oled::run(&arguments),
+        Command::Readme(arguments) => readme::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
     }
 }

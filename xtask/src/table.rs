@@ -2,14 +2,19 @@
 
 use comfy_table::{presets::ASCII_MARKDOWN, CellAlignment, Table};
 
-/// Prints a table and an empty line. The first column is aligned left, the others right.
+/// Prints a table and an empty line.
 pub(crate) fn print(head: &[&str], rows: Vec<Vec<String>>) {
+    println!("{}\n", text(head, rows));
+}
+
+/// A table as text. The first column is aligned left, the others right.
+pub(crate) fn text(head: &[&str], rows: Vec<Vec<String>>) -> String {
     let mut table = Table::new();
     table.load_preset(ASCII_MARKDOWN).set_header(head.iter().copied()).add_rows(rows);
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    println!("{table}\n");
+    table.to_string()
 }
 
 /// A number with its thousands apart.

@@ -98,7 +98,11 @@ fn grids() -> impl Strategy<Value = Partition> {
         let cells = (0..CELLS).flat_map(|y| (0..CELLS).map(move |x| (x, y))).zip(cut);
         let triangles = cells.flat_map(|((x, y), cut)| {
             let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
-            if cut { [[a, b, c], [c, d, a]] } else { [[b, c, d], [d, a, b]] }
+            if cut {
+                [[a, b, c], [c, d, a]]
+            } else {
+                [[b, c, d], [d, a, b]]
+            }
         });
         Partition { points, triangles: triangles.collect() }
     })

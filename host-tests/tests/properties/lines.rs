@@ -79,7 +79,7 @@ fn same_in_any_order<S: Shade<1>, const ACTIVE: usize>(scene: &Scene, order: &[I
 }
 
 proptest! {
-    #![proptest_config(cases(128))]
+    #![proptest_config(cases(96))]
 
     #[test]
     fn each_pixel_is_stored_once_from_left_to_right(scene in scenes::<1>(), longer in 0..3usize) {

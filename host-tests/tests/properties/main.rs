@@ -3,9 +3,11 @@
 //! The same scenes come every time; `PROPTEST_RNG_SEED=7` tries others, and `PROPTEST_CASES=10000` more of them.
 
 mod accuracy;
+mod capacity;
 mod coverage;
 mod lines;
 mod scene;
+mod sinks;
 mod total;
 mod visibility;
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::iter::repeat_n;
 
 use beamshade::{
-    Background, Camera, Color, Flat, Frame, Light, Material, Mesh, MeshData, Picture, Pose, Rotation, Scanner, Turn,
+    Background, Camera, Color, Flat, Frame, Full, Light, Material, Mesh, MeshData, Picture, Pose, Rotation, Scanner, Turn,
 };
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Gray8;
@@ -16,6 +16,8 @@ use proptest::array::{uniform, uniform3};
 use proptest::collection::vec;
 use proptest::num::f32::ANY;
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 
 /// One of each kind: one- and double-sided, glossy and matte, saturating, plain for [`Choose`](beamshade::Choose).
 static MATERIALS: [Material; 4] = [
@@ -50,6 +52,15 @@ impl Shape {
             parts: vec![[triangles.len() as u16, 1]],
             positions,
             triangles,
+        }
+    }
+
+    /// Takes away the last triangle.
+    pub(crate) fn pop(&mut self) {
+        self.triangles.pop();
+        self.edges.pop();
+        if let Some([count, _]) = self.parts.iter_mut().rev().find(|[count, _]| *count > 0) {
+            *count -= 1;
         }
     }
 
@@ -136,13 +147,19 @@ impl<const LIGHTS: usize> Scene<LIGHTS> {
         &self,
         meshes: &'m [Mesh<'m>],
         frame: &mut Frame<'m, V, T, L, LIGHTS, O, M>,
-    ) -> Vec<Result<(), beamshade::Full>> {
+    ) -> Vec<Result<(), Full>> {
         let _ = frame.background(self.background).begin(&self.camera, &self.lights);
         meshes.iter().zip(&self.objects).map(|(mesh, (_, pose))| frame.add(mesh, pose)).collect()
     }
 
     pub(crate) fn meshes(&self) -> Vec<Mesh<'_>> {
         self.objects.iter().map(|(shape, _)| shape.mesh()).collect()
+    }
+
+    /// The vertex numbers of each object's triangles, as [`Measures`](host_tests::Measures) asks for them.
+    pub(crate) fn triangles(&self) -> Vec<Vec<[u32; 3]>> {
+        let corners = |(shape, _): &(Shape, Pose)| shape.triangles.iter().map(|corners| corners.map(u32::from)).collect();
+        self.objects.iter().map(corners).collect()
     }
 
     /// The pixels that each triangle covers when it is drawn alone, as indices row by row.
@@ -200,11 +217,14 @@ fn lights() -> impl Strategy<Value = Light> {
     (towards, intensity).prop_map(|(towards, intensity)| Light::directional(towards).intensity(intensity))
 }
 
+pub(crate) fn colors() -> impl Strategy<Value = Color> {
+    uniform3(0..=1u16 << 15).prop_map(Color)
+}
+
 fn backgrounds() -> impl Strategy<Value = Background> {
-    let color = || uniform3(0..=1u16 << 15).prop_map(Color);
     prop_oneof![
-        color().prop_map(Background::Plain),
-        (color(), color()).prop_map(|(top, bottom)| Background::Gradient { top, bottom }),
+        colors().prop_map(Background::Plain),
+        (colors(), colors()).prop_map(|(top, bottom)| Background::Gradient { top, bottom }),
         Just(Background::Keep),
     ]
 }
@@ -220,15 +240,15 @@ pub(crate) fn rotations() -> impl Strategy<Value = Rotation> {
 /// Before the eye, behind it, around it, and far beyond what is documented to be drawn.
 fn poses() -> impl Strategy<Value = Pose> {
     let scale = prop_oneof![6 => 0.1f32..2.0, 2 => 2f32..600.0, 1 => 0f32..0.01, 1 => ANY];
-    let place = prop_oneof![6 => uniform3(-2f32..2.0), 2 => uniform3(-10f32..10.0), 1 => uniform3(-1100f32..1100.0), 1 => uniform3(ANY)];
+    let place =
+        prop_oneof![6 => uniform3(-2f32..2.0), 2 => uniform3(-10f32..10.0), 1 => uniform3(-1100f32..1100.0), 1 => uniform3(ANY)];
     (rotations(), scale, place).prop_map(|(rotation, scale, place)| Pose::turned(rotation).scaled(scale).at(place))
 }
 
 /// Up to 40 triangles: slivers, points, repeated vertices and all bit patterns of positions, normals and edges among them.
 fn shapes() -> impl Strategy<Value = Shape> {
-    let coordinate = || {
-        prop_oneof![4 => any::<i16>(), 2 => -300..=300i16, 1 => Just(0), 1 => prop_oneof![Just(i16::MIN), Just(i16::MAX)]]
-    };
+    let coordinate =
+        || prop_oneof![4 => any::<i16>(), 2 => -300..=300i16, 1 => Just(0), 1 => prop_oneof![Just(i16::MIN), Just(i16::MAX)]];
     let normal = || prop_oneof![3 => unit_normals(), 1 => uniform3(any::<i16>())];
     let vertex = (uniform3(coordinate()), normal());
     let edges = prop_oneof![2 => uniform3(0..3000u16), 1 => uniform3(any::<u16>())];
@@ -247,9 +267,29 @@ fn shapes() -> impl Strategy<Value = Shape> {
     )
 }
 
-fn unit_normals() -> impl Strategy<Value = [i16; 3]> {
+pub(crate) fn unit_normals() -> impl Strategy<Value = [i16; 3]> {
     (0.0..TAU, -1f64..=1.0).prop_map(|(turn, z)| {
         let ring = (1.0 - z * z).sqrt();
         [ring * turn.cos(), ring * turn.sin(), z].map(|c| (c * 16384.0).round() as i16)
     })
+}
+
+#[test]
+fn random_scenes_are_worth_drawing() {
+    let mut runner = TestRunner::new(crate::cases(0));
+    let (mut seen, mut cut, mut overlapping) = (0, 0, 0);
+    for _ in 0..400 {
+        let scene = scenes::<1>().new_tree(&mut runner).unwrap().current();
+        let owners = scene.show(|picture| read::<Gray8, Flat, 256, 1>(&mut Scanner::new().start(picture)).owner);
+        let covered: usize = scene.coverage().iter().map(|(_, pixels)| pixels.len()).sum();
+        let visible = owners.iter().flatten().count();
+        seen += usize::from(visible > 0);
+        overlapping += usize::from(visible < covered);
+        let meshes = scene.meshes();
+        let mut frame = Box::<Frame<'_, 256, 256, 1024, 1, 4, 0>>::default();
+        let made = |result: &Result<(), Full>| matches!(result, Err(Full::Made { .. }));
+        cut += usize::from(scene.fill(&meshes, &mut frame).iter().any(made));
+    }
+    println!("of 400 scenes {seen} are seen, {cut} are clipped, in {overlapping} triangles overlap");
+    assert!(seen > 250 && cut > 100 && overlapping > 200);
 }

@@ -1,51 +1,89 @@
 //! No panic, whatever the input; tests are compiled with checks for overflow.
 
-use beamshade::{Choose, DuffBarycentric, Flat, Frame, Gouraud, Scanner, Shade};
+use beamshade::{
+    Camera, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Light, Material, Mesh, Picture, Pose, Scanner, Shade,
+};
+use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb565;
+use proptest::collection::vec;
 use proptest::prelude::*;
+use proptest::sample::Index;
 
 use crate::cases;
 use crate::scene::{scenes, Scene};
 
-/// Draws everything there is in a frame and a scanner of that room.
-fn draw<
-    S: Shade<LIGHTS>,
-    const LIGHTS: usize,
-    const V: usize,
-    const T: usize,
-    const L: usize,
-    const O: usize,
-    const M: usize,
-    const ACTIVE: usize,
->(
-    scene: &Scene<LIGHTS>,
-) {
-    let meshes = scene.meshes();
-    let mut frame = Box::<Frame<'_, V, T, L, LIGHTS, O, M>>::default();
-    scene.fill(&meshes, &mut frame);
+/// Draws all lines of a picture.
+fn draw<S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(picture: Picture<'_, LIGHTS>) {
     let mut scanner = Box::<Scanner<ACTIVE, S, LIGHTS>>::default();
-    let mut lines = scanner.start(frame.picture());
-    let mut row = [Rgb565::new(0, 0, 0); 1024];
-    for y in 0..=lines.viewport().size.height as u16 {
-        lines.line(y, &mut row);
+    let mut lines = scanner.start(picture);
+    let mut dropped = 0;
+    for y in 0..picture.viewport().size.height as u16 {
+        let line = lines.line(y, &mut [Rgb565::new(0, 0, 0); 1024]);
+        assert!(usize::from(line.active) <= ACTIVE && line.dropped >= dropped);
+        dropped = line.dropped;
     }
 }
 
+/// Draws a scene with room for all of it, and with next to none, by each method.
+fn draw_all<const LIGHTS: usize>(scene: &Scene<LIGHTS>) {
+    scene.show(|picture| {
+        draw::<DuffBarycentric, 256, LIGHTS>(picture);
+        draw::<Gouraud, 256, LIGHTS>(picture);
+        draw::<Flat, 256, LIGHTS>(picture);
+    });
+    let meshes = scene.meshes();
+    let mut small = Frame::<'_, 30, 20, 100, LIGHTS, 2, 6>::new();
+    scene.fill(&meshes, &mut small);
+    draw::<Choose<DuffBarycentric, Choose<Gouraud, Flat>>, 5, LIGHTS>(small.picture());
+    draw::<DuffBarycentric, 1, LIGHTS>(small.picture());
+    draw::<Flat, 0, LIGHTS>(small.picture());
+}
+
+/// The binary form of a mesh with two parts and two materials, in words.
+fn binary() -> Vec<u16> {
+    let vertices: [u16; 12] = [0, 0, 0, 9000, 0, 0, 0, 9000, 0, 0, 0, 9000];
+    let normals = [0, 0, 16384].repeat(4);
+    let triangles: [u16; 6] = [0, 1, 2, 0, 3, 1];
+    let header = [Mesh::MAGIC[0], Mesh::MAGIC[1], Mesh::VERSION, 4, 2, 2, 2, 0, 1, 0, 0, 0, 16384];
+    let tail = [[0; 6].as_slice(), &[1, 0, 1, 1], &[9000; 2 * Material::WORDS]].concat();
+    [&header, vertices.as_slice(), &normals, &triangles, &tail].concat()
+}
+
 proptest! {
-    #![proptest_config(cases(256))]
+    #![proptest_config(cases(128))]
 
     #[test]
-    fn one_light(scene in scenes::<1>()) {
-        draw::<DuffBarycentric, 1, 128, 256, 1024, 4, 512, 128>(&scene);
-        draw::<Gouraud, 1, 128, 256, 1024, 4, 512, 128>(&scene);
-        draw::<Flat, 1, 128, 256, 1024, 4, 512, 128>(&scene);
-        draw::<Choose<DuffBarycentric, Choose<Gouraud, Flat>>, 1, 40, 20, 100, 2, 6, 5>(&scene);
+    fn scenes_of_one_light(scene in scenes::<1>()) {
+        draw_all(&scene);
     }
 
     #[test]
-    fn four_lights(scene in scenes::<4>()) {
-        draw::<DuffBarycentric, 4, 128, 256, 1024, 4, 512, 128>(&scene);
-        draw::<Gouraud, 4, 128, 256, 1024, 4, 512, 128>(&scene);
-        draw::<Flat, 4, 128, 256, 1024, 4, 512, 128>(&scene);
+    fn scenes_of_two_lights(scene in scenes::<2>()) {
+        draw_all(&scene);
+    }
+
+    #[test]
+    fn scenes_of_four_lights(scene in scenes::<4>()) {
+        draw_all(&scene);
+    }
+
+    #[test]
+    fn what_is_read_from_bytes_can_be_drawn(changes in vec((any::<Index>(), any::<u16>()), 0..4), cut in 0..3usize) {
+        let mut words = binary();
+        for (place, word) in &changes {
+            let place = place.index(words.len());
+            words[place] = *word;
+        }
+        let bytes: &[u8] = bytemuck::cast_slice(&words);
+        let materials = [Material::new(Color::WHITE); 2];
+        let mesh = Mesh::from_bytes(&bytes[..bytes.len() - cut], &materials);
+        prop_assert!(mesh.is_err() || cut == 0);
+        prop_assert!(mesh.is_ok() || cut > 0 || !changes.is_empty());
+        if let Ok(mesh) = mesh {
+            let mut frame = Frame::<'_, 16, 16, 48>::new();
+            frame.begin(&Camera::new(Size::new(64, 48)), &[Light::OFF]).unwrap();
+            let _ = frame.add(&mesh, &Pose::IDENTITY);
+            draw::<DuffBarycentric, 8, 1>(frame.picture());
+        }
     }
 }

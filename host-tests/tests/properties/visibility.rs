@@ -1,5 +1,6 @@
 //! Who is seen, against depths in f64.
 
+use beamshade::model::clip::edge_constant;
 use beamshade::{Background, Camera, Color, DuffBarycentric, Light, Scanner};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Gray8;
@@ -11,20 +12,22 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use crate::cases;
-use crate::scene::{rotations, scenes, Place, Rays, Scene, Shape};
+use crate::scene::{rotations, scenes, unit_normals, Place, Rays, Scene, Shape};
 
 const DISTANCE: f32 = 3.0;
 
 /// Double-sided triangles through each other, before the eye, and some of them behind it.
-fn soups() -> impl Strategy<Value = (Scene, Vec<Place>)> {
+pub(crate) fn soups() -> impl Strategy<Value = (Scene, Vec<Place>)> {
     let triangle = uniform3(uniform3(-32767..=32767i16)).prop_filter("too thin", |corners| {
         let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.map(f64::from)));
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
         (b - a).cross(c - a).length() > 0.2 * longest
     });
-    let shape = vec(triangle, 1..8).prop_map(|corners| {
-        let triangles = (0..corners.len() as u16).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        Shape::plain(corners.into_flattened(), triangles)
+    let shape = vec((triangle, uniform3(unit_normals())), 1..8).prop_map(|triangles| {
+        let (positions, normals): (Vec<_>, Vec<_>) = triangles.into_iter().unzip();
+        let edges = normals.iter().map(|[a, b, c]| [(a, b), (b, c), (c, a)].map(|(n, m)| edge_constant(*n, *m))).collect();
+        let triangles = (0..positions.len() as u16).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        Shape { normals: normals.into_flattened(), edges, ..Shape::plain(positions.into_flattened(), triangles) }
     });
     let at = prop_oneof![2 => uniform3(-0.5f32..0.5), 1 => uniform3(-2f32..3.0)];
     let place = (rotations(), 0.3f32..2.0, at).prop_map(|(rotation, scale, at)| Place { rotation, scale, at });

@@ -9,7 +9,7 @@ mod window;
 use crate::project::{self, progress};
 use crate::{oled, table};
 use animation::{Animation, Palette};
-use anyhow::Result;
+use anyhow::{Context, Result};
 use beamshade::{DuffBarycentric, Flat, Gouraud, Shade, Turn};
 use beamshade_mesh::{Model, Options, Quantized, Surface};
 use clap::ValueEnum;
@@ -62,8 +62,9 @@ fn size(word: &str) -> Result<Size, String> {
 /// `cargo demo`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.oled {
-        println!("{}", save("oled.png", &png(oled::show(0)?.picture())?)?);
-        return Ok(());
+        let panel = oled::show(0)?;
+        println!("{}", save("oled.png", &png(panel.picture())?)?);
+        return oled::check(&panel, 0);
     }
     let (path, model) = arguments.load()?;
     match arguments.method {
@@ -104,7 +105,7 @@ impl Arguments {
             return window::show(&mut turntable, self.frames);
         }
         progress(format!("rendering {} frames of {}", self.frames, path.display()));
-        let (png, gif, figures) = self.film(&mut turntable)?;
+        let (png, gif, figures) = self.film(&mut turntable).with_context(|| path.display().to_string())?;
         let name = |extension| Path::new(path.file_stem().unwrap_or_default()).with_extension(extension);
         let saved = [save(name("png"), &png)?, save(name("gif"), &gif)?];
 
