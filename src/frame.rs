@@ -70,6 +70,11 @@ pub enum Full {
         /// Objects that fitted before.
         fitted: u16,
     },
+    /// No numbers left for the object's triangles: all meshes in sight and `MADE` together have 65534 at most.
+    Numbers {
+        /// Triangles of objects in sight before.
+        fitted: u16,
+    },
     /// No room for all vertices of the object, which is left out whole.
     Vertices {
         /// Vertices that would have fitted.
@@ -96,6 +101,7 @@ impl core::fmt::Display for Full {
         match *self {
             Self::Lines { fitted } => write!(f, "the frame has room for {fitted} lines only"),
             Self::Objects { fitted } => write!(f, "the frame has room for {fitted} objects only"),
+            Self::Numbers { fitted } => write!(f, "after {fitted} triangles, no numbers are left for all of the object's"),
             Self::Vertices { fitted } => {
                 write!(f, "the object has more than the {fitted} vertices that the frame still has room for")
             }
@@ -182,8 +188,8 @@ impl<
         let first_vertex = self.vertices.len() as u16;
         let first_triangle = self.numbered;
         let numbered = usize::from(first_triangle) + data.triangles.len();
-        if numbered > usize::from(TriangleId::MADE) - MADE {
-            return Err(Full::Objects { fitted: self.objects.len() as u16 });
+        if numbered + MADE > usize::from(TriangleId::MADE) {
+            return Err(Full::Numbers { fitted: first_triangle });
         }
         let room = VERTICES - self.vertices.len();
         if data.positions.len() > room {

@@ -1,6 +1,6 @@
 //! Output formats, and their common measure: levels of 8 bits.
 
-use embedded_graphics::pixelcolor::{Gray8, GrayColor, Rgb565, Rgb888, RgbColor};
+use embedded_graphics::pixelcolor::{Gray4, Gray8, GrayColor, Rgb565, Rgb888, RgbColor};
 
 /// A pixel of an output format.
 pub trait Format: Copy {
@@ -18,6 +18,16 @@ impl Format for Gray8 {
 
     fn levels(self) -> [u8; 3] {
         [self.luma(); 3]
+    }
+}
+
+impl Format for Gray4 {
+    fn round([_, green, _]: [f64; 3]) -> Self {
+        Self::new(narrow(green, 15))
+    }
+
+    fn levels(self) -> [u8; 3] {
+        [widen(self.luma(), 15); 3]
     }
 }
 
@@ -70,6 +80,7 @@ mod tests {
         assert_eq!(Rgb565::round([0.5, 0.5, 0.48]), Rgb565::new(16, 32, 15));
         assert_eq!(Gray8::round([0.0, 250.4 / 255.0, 1.0]), Gray8::new(250));
         assert_eq!(Gray8::new(7).levels(), [7; 3]);
+        assert_eq!((Gray4::round([0.0, 0.5, 1.0]), Gray4::new(9).levels()), (Gray4::new(8), [153; 3]));
     }
 
     #[test]

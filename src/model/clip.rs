@@ -55,7 +55,7 @@ fn between(inside: Corner, near: i64, outside: Corner, far: i64) -> Corner {
     let way = near - far;
     let down = (32 - way.leading_zeros() as i32).max(0);
     let part = ((near >> down) << 30).checked_div(way >> down).unwrap_or(0).clamp(0, 1 << 30);
-    let mix = |a: i32, b: i32| a.wrapping_add(((i64::from(b) - i64::from(a)) * part >> 30) as i32);
+    let mix = |a: i32, b: i32| a.wrapping_add((((i64::from(b) - i64::from(a)) * part) >> 30) as i32);
     let [ax, ay, az] = inside.eye;
     let [bx, by, bz] = outside.eye;
     let [nx, ny, nz] = inside.normal.map(i32::from);

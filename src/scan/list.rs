@@ -1,10 +1,6 @@
 //! The active list: the triangles that cross the current line, from left to right.
 
-use super::{
-    active::Active,
-    bucket::TriangleId,
-    picture::Picture,
-};
+use super::{active::Active, bucket::TriangleId, picture::Picture};
 
 /// Where an active triangle is on the line, and where in the list.
 #[derive(Clone, Copy, Debug)]

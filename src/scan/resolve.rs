@@ -36,7 +36,12 @@ impl<const N: usize> Sweep<N> {
     }
 
     /// Adds the next spans to the table, until the line ends or the table is full; whether there are any.
-    pub(crate) fn fill<const L: usize>(&mut self, list: &mut ActiveList<N>, picture: &Picture<'_, L>, table: &mut Table<N>) -> bool {
+    pub(crate) fn fill<const L: usize>(
+        &mut self,
+        list: &mut ActiveList<N>,
+        picture: &Picture<'_, L>,
+        table: &mut Table<N>,
+    ) -> bool {
         table.clear();
         while self.x < self.width && !table.is_full() {
             match self.front {
@@ -72,7 +77,13 @@ impl<const N: usize> Sweep<N> {
     }
 
     /// Where a triangle is in front: on to the next triangle, or to the end of its being there.
-    fn covered<const L: usize>(&mut self, front: Place, list: &mut ActiveList<N>, picture: &Picture<'_, L>, table: &mut Table<N>) {
+    fn covered<const L: usize>(
+        &mut self,
+        front: Place,
+        list: &mut ActiveList<N>,
+        picture: &Picture<'_, L>,
+        table: &mut Table<N>,
+    ) {
         let end = i32::from(front.stop).min(self.crossing).min(self.width);
         if let Some(place) = list.places().get(self.next).copied().filter(|place| i32::from(place.begin) < end) {
             self.next += 1;

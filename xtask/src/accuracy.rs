@@ -100,6 +100,17 @@ fn text(rows: &[Row]) -> String {
             ]);
         }
     }
-    let head = ["output", "truth", "PSNR dB", "below rounding dB", "mean", "max", "over 4 %", "same owner %", "wrong owner", "wrong neighbour"];
+    let head = [
+        "output",
+        "truth",
+        "PSNR dB",
+        "below rounding dB",
+        "mean",
+        "max",
+        "over 4 %",
+        "same owner %",
+        "wrong owner",
+        "wrong neighbour",
+    ];
     table::text(&head, lines)
 }

@@ -97,7 +97,7 @@ proptest! {
         let objects = objects.iter().map(Round::object).collect();
         let scene = Scene { camera, lights, objects, background: [0.2, 0.4, 0.6] };
         let measures = measure(&scene);
-        prop_assert!(measures.psnr_db >= 50.0 && measures.wrong_owner <= 4, "{:?}", measures);
+        prop_assert!(measures.psnr_db >= 44.0 && measures.wrong_owner <= 4, "{:?}", measures);
         prop_assert!(measures.mean <= 0.5 || measures.covered < 10, "{:?}", measures);
     }
 }

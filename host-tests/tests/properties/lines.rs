@@ -36,7 +36,7 @@ impl Made {
 }
 
 impl Ink for Made {
-    type Paint = ();
+    type Paint<'m> = ();
 
     fn paint(_: &Material) {}
 

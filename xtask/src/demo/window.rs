@@ -47,7 +47,7 @@ pub(super) fn show<S: Shade<1>>(_: &mut Turntable<'_, S>, _: u16) -> Result<()> 
 
     let cargo = |command| {
         let mut cargo = project::cargo();
-        cargo.args([command, "--release", "--package", "xtask", "--features", "window"]);
+        cargo.args([command, "--profile", "tool", "--package", "xtask", "--features", "window"]);
         cargo.arg("--manifest-path").arg(project::root().join("Cargo.toml"));
         cargo
     };
