@@ -30,7 +30,7 @@ fn frame_0_is_what_another_renderer_drew() {
     // The other renderer did not round the focal length.
     assert_eq!(differences(&scene), [1; 76]);
     scene.camera.focal = 120.0 / 20_f64.to_radians().tan();
-    assert_eq!(differences(&scene), []);
+    assert_eq!(differences(&scene), [0; 0]);
 }
 
 #[test]
