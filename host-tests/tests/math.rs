@@ -77,9 +77,9 @@ fn reciprocal_root() {
     let quarter = 1 << 26;
     let (largest, rms) = statistics((0..63 * (quarter / 16)).step_by(997).map(error));
     documented("largest", largest, 9e-5);
-    documented("RMS", rms, 1.8e-5);
+    documented("RMS", rms, 2.1e-5);
     let (largest, _) = statistics((0..2 * quarter).step_by(997).map(error));
-    documented("largest up to 0.5", largest, 4.1e-5);
+    documented("largest up to 0.5", largest, 5.8e-5);
     assert_eq!([inverse_root(-1), inverse_root(i32::MIN), inverse_root(0)], [1 << 15; 3]);
     assert_eq!([inverse_root(3 * quarter), inverse_root(4 * quarter), inverse_root(i32::MAX)], [2 << 15, 8 << 15, 8 << 15]);
 }
@@ -104,7 +104,7 @@ fn power() {
         assert_eq!(power.at(u32::MAX), power.at(1 << 31), "{exponent}");
         assert!(power.at(0) == 0, "{exponent}");
     }
-    documented("largest", worst, 1.1e-3);
+    documented("largest", worst, 1.2e-3);
     documented("RMS", worst_rms, 1.3e-4);
     assert_eq!(Power::new(0), Power::new(1));
 }

@@ -39,8 +39,14 @@ const fn factor(value: f32) -> u16 {
 }
 
 /// The nearest level of `base · light`, base in Q15, light in 1/512 of that, one being `largest`.
-const fn shade(base: u16, light: u64, largest: u64) -> u16 {
-    ((base as u64 * light * largest + (1 << 38)) >> 39) as u16
+const fn shade(base: u16, light: u64, largest: u64) -> u32 {
+    ((base as u64 * light * largest + (1 << 38)) >> 39) as u32
+}
+
+/// Light on a colour, spread as [`Material::SPREAD`] says.
+const fn spread(Color([red, green, blue]): Color, light: u64) -> u32 {
+    let [r, g, b] = Material::SPREAD;
+    shade(red, light, 31 << 4) << r | shade(green, light, 63 << 4) << g | shade(blue, light, 31 << 4) << b
 }
 
 /// A surface under Phong's illumination model (*Faster Phong Shading*, Eq. 1):
@@ -66,6 +72,10 @@ pub struct Material {
     pub(crate) power: Power,
     /// Rgb565 of the ambient and diffuse light alone, in the middle of 256 equal steps of the diffuse intensity up to one.
     pub(crate) ramp: [u16; Self::STEPS],
+    /// The same with four bits more for each channel and half a level for rounding, see [`Material::SPREAD`].
+    pub(crate) dull: [u32; Self::STEPS],
+    /// The highlight in 128 equal steps of the specular intensity up to one, likewise.
+    pub(crate) gloss: [u32; Self::STEPS / 2],
 }
 
 impl Material {
@@ -82,6 +92,8 @@ impl Material {
             plain: false,
             power: Power::new(32),
             ramp: [0; Self::STEPS],
+            dull: [0; Self::STEPS],
+            gloss: [0; Self::STEPS / 2],
         }
         .ramped()
     }
@@ -89,16 +101,23 @@ impl Material {
     /// Steps of the ramp.
     const STEPS: usize = 256;
 
-    /// The same with its ramp made anew.
+    /// Places of red, green and blue in a sum of light: each has its level of Rgb565, four bits below it, and one above.
+    pub(crate) const SPREAD: [u32; 3] = [21, 10, 0];
+
+    /// The same with its ramps made anew.
     const fn ramped(mut self) -> Self {
-        let [red, green, blue] = self.base.0;
         let mut step = 0;
         while step < Self::STEPS {
             let light = self.ambient as u64 * 512 + self.diffuse as u64 * (2 * step as u64 + 1);
             let light = if light > 512 << 15 { 512 << 15 } else { light };
             #[expect(clippy::indexing_slicing, reason = "step < STEPS; slice::get is not const")]
             {
-                self.ramp[step] = shade(red, light, 31) << 11 | shade(green, light, 63) << 5 | shade(blue, light, 31);
+                let [red, green, blue] = self.base.0;
+                self.ramp[step] = (shade(red, light, 31) << 11 | shade(green, light, 63) << 5 | shade(blue, light, 31)) as u16;
+                self.dull[step] = spread(self.base, light) + (8 << 21 | 8 << 10 | 8);
+                if step < Self::STEPS / 2 {
+                    self.gloss[step] = spread(self.highlight, self.specular as u64 * 2 * (2 * step as u64 + 1));
+                }
             }
             step += 1;
         }
@@ -123,7 +142,7 @@ impl Material {
     #[must_use]
     pub const fn specular(mut self, coefficient: f32) -> Self {
         self.specular = factor(coefficient);
-        self
+        self.ramped()
     }
 
     /// The same with another exponent ("gloss"), 1 to 256 being useful; 0 counts as 1.
@@ -137,7 +156,7 @@ impl Material {
     #[must_use]
     pub const fn highlight(mut self, color: Color) -> Self {
         self.highlight = color;
-        self
+        self.ramped()
     }
 
     /// The same, seen from behind too: back faces are kept and lit by their turned normals.
@@ -173,6 +192,8 @@ impl Material {
             plain: flags & 2 == 2,
             power: Power::new(exponent),
             ramp: [0; Self::STEPS],
+            dull: [0; Self::STEPS],
+            gloss: [0; Self::STEPS / 2],
         }
         .ramped()
     }

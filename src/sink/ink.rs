@@ -121,47 +121,49 @@ impl Ink for Rgb888 {
     }
 }
 
-/// A material in Rgb565: its channels, and its ramp for where no highlight shows.
-#[derive(Clone, Copy, Debug)]
-pub struct Ramped<'m> {
-    channels: Rgb<5, 6, 5>,
-    ramp: &'m [u16; 256],
+/// The bits above red, green and blue in a sum of light, see [`Material::SPREAD`].
+const ABOVE: u32 = 1 << 30 | 1 << 20 | 1 << 9;
+
+/// Rgb565 for that much light.
+#[inline(always)]
+fn rgb565(material: &Material, intensity: Intensity) -> u16 {
+    let step = (intensity.diffuse >> 6) as usize;
+    if intensity.specular == 0 {
+        if let Some(pixel) = material.ramp.get(step) {
+            return *pixel;
+        }
+    }
+    let (Some(dull), Some(gloss)) = (material.dull.get(step), material.gloss.get((intensity.specular >> 7) as usize)) else {
+        return bright(material, intensity);
+    };
+    let mut sum = dull + gloss;
+    if sum & ABOVE != 0 {
+        // All bits below the one above a channel, where that one is set.
+        let above = sum & ABOVE;
+        sum |= above - (above >> 9);
+    }
+    (sum >> 14 & 0xf800 | sum >> 9 & 0x7e0 | sum >> 4 & 0x1f) as u16
 }
 
-impl<'m> Ramped<'m> {
-    fn new(material: &'m Material) -> Self {
-        Self { channels: Rgb::new(material), ramp: &material.ramp }
-    }
-
-    #[inline(always)]
-    fn mix(&self, intensity: Intensity) -> u16 {
-        if intensity.specular == 0 {
-            if let Some(pixel) = self.ramp.get((intensity.diffuse >> 6) as usize) {
-                return *pixel;
-            }
-        }
-        self.glossy(intensity)
-    }
-
-    /// With a highlight; apart, so that its nine coefficients do not crowd the registers of all other pixels.
-    #[inline(never)]
-    fn glossy(&self, intensity: Intensity) -> u16 {
-        let [r, g, b] = self.channels.mix(intensity);
-        (r << 11 | g << 5 | b) as u16
-    }
+/// The same for light beyond the tables: several lights together above one.
+#[cold]
+#[inline(never)]
+fn bright(material: &Material, intensity: Intensity) -> u16 {
+    let [r, g, b] = Rgb::<5, 6, 5>::new(material).mix(intensity);
+    (r << 11 | g << 5 | b) as u16
 }
 
 /// Diffuse light in 256 steps where no highlight shows: far below what the format resolves.
 impl Ink for Rgb565 {
-    type Paint<'m> = Ramped<'m>;
+    type Paint<'m> = &'m Material;
 
-    fn paint(material: &Material) -> Ramped<'_> {
-        Ramped::new(material)
+    fn paint(material: &Material) -> &Material {
+        material
     }
 
     #[inline(always)]
-    fn mix(paint: &Ramped<'_>, intensity: Intensity) -> Self {
-        Self::from(RawU16::new(paint.mix(intensity)))
+    fn mix(material: &&Material, intensity: Intensity) -> Self {
+        Self::from(RawU16::new(rgb565(material, intensity)))
     }
 
     fn plain(color: Color) -> Self {
@@ -172,15 +174,15 @@ impl Ink for Rgb565 {
 
 /// Rgb565 with the high byte first, as SPI panels take it: [`as_flattened`](slice::as_flattened) makes bytes of a row.
 impl Ink for [u8; 2] {
-    type Paint<'m> = Ramped<'m>;
+    type Paint<'m> = &'m Material;
 
-    fn paint(material: &Material) -> Ramped<'_> {
-        Ramped::new(material)
+    fn paint(material: &Material) -> &Material {
+        material
     }
 
     #[inline(always)]
-    fn mix(paint: &Ramped<'_>, intensity: Intensity) -> Self {
-        paint.mix(intensity).to_be_bytes()
+    fn mix(material: &&Material, intensity: Intensity) -> Self {
+        rgb565(material, intensity).to_be_bytes()
     }
 
     fn plain(color: Color) -> Self {
