@@ -22,7 +22,7 @@ const HEIGHT: usize = 72;
 /// Of the standard scene.
 const FRAME: u32 = 5;
 
-/// Holds a picture against the reference, at least so many dB away from it in its own format, and then against its golden.
+/// Holds a picture against the reference, which must be at least so many dB away from it, and only then against its golden.
 fn check<P: Format>(name: &str, drawn: &Picture<P>, scene: &Scene<'_>, least_db: f64) {
     let reference = render(scene, Options::default()).round::<P>();
     let measures = Measures::between(&reference, drawn, &scene.triangles());
@@ -79,7 +79,7 @@ fn the_teapot_in_sixteen_greys() {
     check("teapot-gray4", &draw::<Gray4, DuffBarycentric>(&scene), &scene, 40.0);
 }
 
-/// A ring around a ball, and a larger ball in both.
+/// A ring around a ball, and another ball through the ring.
 #[test]
 fn three_objects_through_each_other() {
     let (ring, ball) = (shapes::torus(12), shapes::sphere(9));
@@ -92,7 +92,7 @@ fn three_objects_through_each_other() {
     let objects = vec![
         object(&ring, scenes::ORANGE, pose(0.6, 0.8, [-0.1, 0.0, 0.0])),
         object(&ball, BLUE, pose(0.0, 0.4, [-0.1, 0.05, 0.0])),
-        object(&ball, BLUE, pose(1.0, 0.5, [0.6, -0.1, -0.1])),
+        object(&ball, BLUE, pose(1.0, 0.38, [0.5, -0.1, 0.25])),
     ];
     let scene = Scene { objects, ..teapot(&ring, scenes::ORANGE) };
     check("three-objects", &draw::<Rgb888, DuffBarycentric>(&scene), &scene, 60.0);
@@ -102,13 +102,13 @@ fn three_objects_through_each_other() {
 #[test]
 fn an_open_mesh_through_the_near_plane() {
     let bowl = shapes::bowl(8);
-    let rotation = DMat3::from_rotation_x(0.5);
+    let rotation = DMat3::from_rotation_x(0.35);
     let objects = vec![Object {
         mesh: &bowl,
         materials: vec![Material { double_sided: true, ..scenes::ORANGE }],
         pose: Pose { rotation, scale: 0.9, translation: DVec3::new(0.0, 0.15, 0.0) },
     }];
-    let scene = Scene { camera: camera(2.0), objects, background: [0.05, 0.1, 0.15], ..teapot(&bowl, scenes::ORANGE) };
+    let scene = Scene { camera: camera(1.75), objects, background: [0.05, 0.1, 0.15], ..teapot(&bowl, scenes::ORANGE) };
     check("open-bowl", &draw::<Rgb888, DuffBarycentric>(&scene), &scene, 60.0);
 }
 

@@ -144,7 +144,7 @@ fn is_shiny<const LIGHTS: usize>(triangle: &Triangle<LIGHTS>, surface: &Surface<
     // 2/3 of a Q15 number in Q28, without a division.
     let bend = u32::from(e01.max(e12).max(e20)) * (16384 / 3 + 1);
     // Q14 · Q15, rounded up a little, as Q31.
-    let cosine = ((most + 2) * (inverse_root(bend as i32) + 4)).saturating_mul(4);
+    let cosine = (most + 2).saturating_mul(inverse_root(bend as i32) + 4).saturating_mul(4);
     surface.material.power.shows(cosine)
 }
 

@@ -21,7 +21,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for Flat {
             // Q14 · 3, its third as Q16, times Q15: a cosine in Q31.
             let cosine = |which: fn([i16; 2]) -> i16| {
                 let sum = dots(triangle, light, which);
-                (((sum & !(sum >> 31)) as u32 * 4 + 1) / 3) * root
+                (((sum & !(sum >> 31)) as u32 * 4 + 1) / 3).saturating_mul(root)
             };
             intensity.diffuse += cosine(|[diffuse, _]| diffuse) >> 17;
             intensity.specular += (surface.material.power.at(cosine(|[_, specular]| specular)) * u32::from(*strength)) >> 15;

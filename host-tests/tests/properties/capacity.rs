@@ -114,7 +114,7 @@ fn triangles_to_be_clipped_need_room_for_triangles_and_corners() {
 }
 
 proptest! {
-    #![proptest_config(cases(128))]
+    #![proptest_config(cases(512))]
 
     /// A frame with room for eight triangles draws the picture of the triangles up to the eighth that faces the eye.
     #[test]
@@ -122,8 +122,10 @@ proptest! {
         let scene = Scene { objects: scene.objects[..1].to_vec(), ..scene };
         let meshes = scene.meshes();
         let mut large = Box::<Frame<'_, 256, 256, 1024, 1, 1, 0>>::default();
-        // What is to be clipped is another matter.
-        prop_assume!(scene.fill(&meshes, &mut large) == [Ok(())]);
+        if scene.fill(&meshes, &mut large) != [Ok(())] {
+            // To be clipped, which is another matter.
+            return Ok(());
+        }
         let all = large.picture().triangles();
         let mut small = Box::<Frame<'_, 256, 8, 1024, 1, 1, 0>>::default();
         let room = if all > 8 { Err(Full::Triangles { fitted: 8, left_out: all as u16 - 8 }) } else { Ok(()) };

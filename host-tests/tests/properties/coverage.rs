@@ -109,7 +109,7 @@ fn grids() -> impl Strategy<Value = Partition> {
 }
 
 proptest! {
-    #![proptest_config(cases(64))]
+    #![proptest_config(cases(512))]
 
     #[test]
     fn a_partition_covers_each_pixel_once(

@@ -53,7 +53,7 @@ fn filled() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(cases(64))]
+    #![proptest_config(cases(512))]
 
     #[test]
     fn a_display_gets_all_pixels_at_once(scene in filled(), x in any::<i16>(), y in any::<i16>(), short in 0usize..400) {

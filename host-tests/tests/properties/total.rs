@@ -1,7 +1,8 @@
 //! No panic, whatever the input; tests are compiled with checks for overflow.
 
 use beamshade::{
-    Camera, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Light, Material, Mesh, Picture, Pose, Scanner, Shade,
+    Background, Camera, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Light, Material, Mesh, Picture, Pose, Scanner,
+    Shade,
 };
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb565;
@@ -10,7 +11,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 
 use crate::cases;
-use crate::scene::{scenes, Scene};
+use crate::scene::{scenes, Scene, Shape};
 
 /// Draws all lines of a picture.
 fn draw<S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(picture: Picture<'_, LIGHTS>) {
@@ -39,6 +40,19 @@ fn draw_all<const LIGHTS: usize>(scene: &Scene<LIGHTS>) {
     draw::<Flat, 0, LIGHTS>(small.picture());
 }
 
+/// Normals twice as long as they should be, and edge constants that say they have no length in the middle.
+#[test]
+fn normals_that_are_too_long_do_not_overflow() {
+    let shape = Shape::plain(vec![[0, 0, 0], [9000, 0, 0], [0, 9000, 0]], vec![[0, 1, 2]]);
+    let shape = Shape { normals: vec![[0, 0, i16::MAX]; 3], edges: vec![[u16::MAX; 3]], ..shape };
+    draw_all(&Scene {
+        camera: Camera::new(Size::new(64, 48)),
+        lights: [Light::directional([0.0, 0.0, 1.0])],
+        background: Background::Keep,
+        objects: vec![(shape, Pose::IDENTITY)],
+    });
+}
+
 /// The binary form of a mesh with two parts and two materials, in words.
 fn binary() -> Vec<u16> {
     let vertices: [u16; 12] = [0, 0, 0, 9000, 0, 0, 0, 9000, 0, 0, 0, 9000];
@@ -50,7 +64,7 @@ fn binary() -> Vec<u16> {
 }
 
 proptest! {
-    #![proptest_config(cases(128))]
+    #![proptest_config(cases(1024))]
 
     #[test]
     fn scenes_of_one_light(scene in scenes::<1>()) {

@@ -65,7 +65,7 @@ fn spread(corners: [DVec3; 3], focal: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(cases(96))]
+    #![proptest_config(cases(1024))]
 
     #[test]
     fn the_nearest_is_seen((scene, places) in soups()) {
