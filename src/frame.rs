@@ -75,7 +75,7 @@ pub enum Full {
         /// Triangles of objects in sight before.
         fitted: u16,
     },
-    /// No room for all vertices of the object, which is left out whole.
+    /// No room for all vertices of the object, or for more than 65536 in all; it is left out whole.
     Vertices {
         /// Vertices that would have fitted.
         fitted: u16,
@@ -191,7 +191,8 @@ impl<
         if numbered + MADE > usize::from(TriangleId::MADE) {
             return Err(Full::Numbers { fitted: first_triangle });
         }
-        let room = VERTICES - self.vertices.len();
+        // Vertices are numbered in 16 bits.
+        let room = VERTICES.min(0x1_0000).saturating_sub(self.vertices.len());
         if data.positions.len() > room {
             return Err(Full::Vertices { fitted: room as u16 });
         }
@@ -309,7 +310,7 @@ impl<
             }
             let vertex = Vertex::new(projection.screen(corner.eye), aims.each_ref().map(|aim| aim.dots(corner.normal)));
             corner.vertex = Some(self.vertices.len() as u16);
-            if self.vertices.push(vertex).is_err() {
+            if self.vertices.len() > 0xffff || self.vertices.push(vertex).is_err() {
                 self.vertices.truncate(vertices);
                 return Err(());
             }

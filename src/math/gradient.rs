@@ -34,8 +34,8 @@ impl Gradient {
         [(corner.x >> 8) as i16, (corner.y >> 8) as i16]
     }
 
-    /// The gradient of the triangle; none where it is thinner than about 1/64 pixel: such a triangle takes its values from its
-    /// centroid.
+    /// The gradient of the triangle; none where it is thinner than about 1/64 pixel, or, with a longest side of more than 32
+    /// pixels, than 1/2000 of that side: such a triangle takes its values from its centroid.
     #[inline]
     #[must_use]
     pub fn new([p0, p1, p2]: [Point; 3]) -> Option<Self> {

@@ -2,7 +2,7 @@
 
 use super::{angle::Turn, vector::Vector};
 
-/// A rotation in space, as the three rows of its matrix.
+/// A rotation in space, as the three rows of its matrix: unit vectors at right angles. (Other rows give a wrong picture.)
 ///
 /// `a * b` turns by b first, then by a. Right-handed: a quarter turn about z takes x to y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

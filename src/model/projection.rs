@@ -71,10 +71,10 @@ impl Projection {
         let [x, y, z] = position.map(i32::from);
         let [[ha, hb, hc], [la, lb, lc]] = [self.high, self.low];
         let along = |[a, b, c]: [i32; 3], [d, e, f]: [i32; 3], translation: i32| {
-            // |row| ≤ 2¹⁴ and |position| ≤ √3·2¹⁵, so neither sum leaves 32 bits.
-            let high = a * x + b * y + c * z;
+            // |row| ≤ 2¹⁴ and |position| ≤ √3·2¹⁵, so neither sum leaves 32 bits; rows that are none of a rotation wrap.
+            let high = a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z));
             let low = d * x + e * y + f * z;
-            ((high + (low >> 14)) >> self.drop).saturating_add(translation)
+            (high.wrapping_add(low >> 14) >> self.drop).saturating_add(translation)
         };
         let [tx, ty, tz] = self.translation;
         [along(ha, la, tx), along(hb, lb, ty), along(hc, lc, tz)]

@@ -8,7 +8,7 @@ pub mod flat;
 pub mod gouraud;
 
 /// Light that a surface sends to the eye, before its colours: ambient apart, diffuse and specular each summed over the lights
-/// that reach it; Q14, at most just below 2.
+/// that reach it; Q14, and clamped just below 2 where several lights together are brighter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Intensity {
     /// Σ intensity · max(0, n·l).
