@@ -52,7 +52,7 @@ const fn spread(Color([red, green, blue]): Color, light: u64) -> u32 {
 /// A surface under Phong's illumination model (*Faster Phong Shading*, Eq. 1):
 /// `ambient·base + diffuse·base·(n·l) + specular·highlight·(n·h)ⁿ`, both products clamped at 0, the sum saturating.
 ///
-/// Built in a `const` or `static`, so that it lives in flash together with its tables, about 1 kB.
+/// Built in a `const` or `static`, so that it lives in flash together with its tables, about 2.6 kB.
 ///
 /// ```
 /// use beamshade::{Color, Material};
