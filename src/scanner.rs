@@ -33,7 +33,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Scanner<ACTIVE,
 
     /// Starts on a picture, above its first line.
     pub fn start<'s>(&'s mut self, picture: Picture<'s, LIGHTS>) -> Lines<'s, ACTIVE, S, LIGHTS> {
-        self.list.clear();
+        // The walk to the first line asked for clears the list.
         Lines { scanner: self, picture, line: None, dropped: 0 }
     }
 }
@@ -49,7 +49,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Default for Sca
 pub struct Line {
     /// Triangles that cross it.
     pub active: u16,
-    /// Visible spans, pieces of one triangle side by side counted once.
+    /// Visible spans; pieces that clipping made of one triangle count apart.
     pub spans: u16,
     /// Facets set up on it.
     pub facets: u16,
