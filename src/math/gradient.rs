@@ -5,7 +5,7 @@ use embedded_graphics::geometry::Point;
 use super::{
     product::{mul_high, scale},
     reciprocal::Reciprocal,
-    screen::center,
+    screen::SUBPIXELS,
 };
 
 /// The barycentric coordinates λ1 and λ2 of a screen triangle, as linear functions of the pixel.
@@ -36,50 +36,71 @@ impl Gradient {
 
     /// The gradient of the triangle; none where it is thinner than about 1/64 pixel, or, with a longest side of more than 32
     /// pixels, than 1/2000 of that side: such a triangle takes its values from its centroid.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new([p0, p1, p2]: [Point; 3]) -> Option<Self> {
         let [ax, ay, bx, by] = [p1.x - p0.x, p1.y - p0.y, p2.x - p0.x, p2.y - p0.y];
-        let bits = (ax ^ ax >> 31) | (ay ^ ay >> 31) | (bx ^ bx >> 31) | (by ^ by >> 31);
+        let mut bits = (ax ^ ax >> 31) | (ay ^ ay >> 31) | (bx ^ bx >> 31) | (by ^ by >> 31) | 1;
         // Thirteen bits for the largest: more precision for small triangles, no overflow for large ones.
-        let up = bits.leading_zeros() as i32 - 19;
-        let [ax, ay, bx, by] = [ax, ay, bx, by].map(|d| scale(d, up));
+        let mut up = 0;
+        let ([ax, ay, bx, by], least) = if bits < 1 << 13 {
+            // A few steps for most; not every processor can count zeros.
+            while bits & (1 << 12) == 0 {
+                bits <<= 1;
+                up += 1;
+            }
+            // At least a height of 1/64 pixel over the longest side.
+            ([ax, ay, bx, by].map(|d| d << up), 1 << 15 << up)
+        } else {
+            up = bits.leading_zeros() as i32 - 19;
+            // Or of 4 units where these are larger.
+            ([ax, ay, bx, by].map(|d| scale(d, up)), 1 << 15)
+        };
         let area = ax * by - ay * bx;
         let size = area.unsigned_abs();
-        // A height of 1/64 pixel over the longest side, or of 4 units where these are larger.
-        if up > 12 || size < (1 << 15) << up.max(0) {
+        if size < least {
             return None;
         }
-        let turned = area >> 31;
-        let [ax, ay, bx, by] = [ax, ay, bx, by].map(|d| (d ^ turned) - turned);
         let inverse = Reciprocal::of(size);
-        let [x, y] = [[by, -ay], [-bx, ax]];
-        let (fx, fy) = (center(p0.x >> 8) - p0.x, center(p0.y >> 8) - p0.y);
-        let at = [(by * fx - bx * fy + 128) >> 8, (ax * fy - ay * fx + 128) >> 8];
+        let [x, y] = if area < 0 { [[-by, ay], [bx, -ax]] } else { [[by, -ay], [-bx, ax]] };
+        // From corner 0 to the centre of its pixel.
+        let [fx, fy] = [p0.x, p0.y].map(|place| SUBPIXELS / 2 - (place & (SUBPIXELS - 1)));
+        let ([x1, x2], [y1, y2]) = (x, y);
+        let at = [(x1 * fx + y1 * fy + 128) >> 8, (x2 * fx + y2 * fy + 128) >> 8];
         Some(Self { at, x, y, short: inverse.short(), exponent: inverse.zeros + up })
     }
 
     /// A value that is `v0` at corner 0, `v0 + d1` and `v0 + d2` at the others: at the anchor, and its increase for a
     /// pixel to the right and down, in units finer by 2^`finer` and wrapping.
     ///
-    /// The differences have at most 16 bits and a sign.
+    /// The differences have at most 15 bits and a sign.
     #[inline]
     #[must_use]
     pub fn linear(&self, v0: i32, d1: i32, d2: i32, finer: i32) -> [i32; 3] {
-        let shift = self.exponent - 23 + finer;
-        let along = |[g1, g2]: [i32; 2]| scale(mul_high(d1 * g1 + d2 * g2, self.short), shift);
+        // ρ goes into the differences, in halves of a unit: so the value is off by no more than these, wherever on the triangle.
+        let half = (self.short >> 1) as i32;
+        let [d1, d2] = [d1, d2].map(|d| (d * half + (1 << 13)) >> 14);
+        let up = self.exponent + finer - 24;
+        let along = |[g1, g2]: [i32; 2]| (d1.wrapping_mul(g1).wrapping_add(d2.wrapping_mul(g2)) << up.max(0)) >> (-up).max(0);
         [v0.wrapping_shl(finer as u32).wrapping_add(along(self.at)), along(self.x), along(self.y)]
     }
 
-    /// As [`linear`](Self::linear) for differences of up to 31 bits, in the same units; 64-bit products, for the few that need it.
+    /// As [`linear`](Self::linear) for differences of up to 24 bits, exact but for a rounding at the end; by 64-bit products only
+    /// where differences have more than 16 bits.
     #[must_use]
-    pub fn linear_wide(&self, v0: i32, d1: i32, d2: i32) -> [i32; 3] {
-        let (d1, d2) = (i64::from(d1), i64::from(d2));
-        let along = |[g1, g2]: [i32; 2]| {
-            let product = (d1 * i64::from(g1) + d2 * i64::from(g2)) * i64::from(self.short);
-            let right = (39 - self.exponent).clamp(1, 63);
-            ((product >> (right - 1)).wrapping_add(1) >> 1) as i32
+    pub fn linear_wide(&self, v0: i32, d1: i32, d2: i32, finer: i32) -> [i32; 3] {
+        let is_short = |d: i32| (d + (1 << 16)) as u32 >> 17 == 0;
+        let [at, x, y] = if is_short(d1) && is_short(d2) {
+            let shift = self.exponent + finer - 23;
+            [self.at, self.x, self.y].map(|[g1, g2]| scale(mul_high(d1 * g1 + d2 * g2, self.short), shift))
+        } else {
+            let (d1, d2) = (i64::from(d1), i64::from(d2));
+            let less = (39 - self.exponent - finer).clamp(1, 63);
+            [self.at, self.x, self.y].map(|[g1, g2]| {
+                let product = (d1 * i64::from(g1) + d2 * i64::from(g2)) * i64::from(self.short);
+                ((product >> (less - 1)).wrapping_add(1) >> 1) as i32
+            })
         };
-        [v0.wrapping_add(along(self.at)), along(self.x), along(self.y)]
+        [v0.wrapping_shl(finer as u32).wrapping_add(at), x, y]
     }
 }

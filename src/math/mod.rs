@@ -12,6 +12,8 @@
 //! | point on the screen | 1/256 pixel, 20 bits | 2⁻⁸ | ±2048 pixels |
 //! | nearness `1/z`, scaled to the near plane | 23 bits | 2⁻²³ | 0 … 1 |
 //! | interpolated product | Q24, wrapping `i32` | 2⁻²⁴ | ±128 |
+//! | interpolated cosine with the light | Q30, wrapping `i32` | 2⁻³⁰ | ±2 |
+//! | height of the cosine with the half vector, see [`Power`](power::Power) | `i32` | 2⁻²⁹⁻ᵏ | ±4·2⁻ᵏ |
 //! | interpolated `u = 1 − |N|²` | Q28, wrapping `i32` | 2⁻²⁸ | ±8 |
 //! | intensity, diffuse or specular | Q14, `u32` | 2⁻¹⁴ | 0 … 2 |
 //! | colour factor, coefficient | Q15, `u16` | 2⁻¹⁵ | 0 … 1 |
@@ -20,6 +22,7 @@ pub mod angle;
 pub mod gradient;
 pub mod power;
 pub mod product;
+pub mod quadratic;
 pub mod reciprocal;
 pub mod root;
 pub mod rotation;

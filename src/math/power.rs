@@ -1,62 +1,56 @@
 //! Integer powers of a cosine, as a table over the range where they show.
 
-/// `cosⁿ` for one exponent n, tabulated over the range in which it reaches 1/1024 or more.
+/// `cosⁿ` for one exponent n, tabulated over the range in which it reaches 1/512 or more.
 ///
-/// The table is indexed by the distance from the peak, `t = 1 − cos`, has 128 intervals of equal width over
-/// `0 ≤ t < 2⁻ᵏ`, and is linear in between; k is the largest that keeps the whole visible range inside.
+/// The table has 512 entries of equal width, 2⁻ᵏ/512, the first where the power begins to show, each with the power in its
+/// middle; k is the largest that keeps the whole visible range inside.
 ///
-/// Error against f64, for n = 1 … 256: at most 1.2·10⁻³ (0.3 of 255 levels), RMS below 1.8·10⁻⁴ over the visible range.
+/// Error against f64, for n = 1 … 256: at most 1.36·10⁻² (half of what an entry differs from the next), RMS below 2.0·10⁻³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Power {
     exponent: u16,
-    /// Bits to drop from a Q31 distance so that the rest counts 256ths of intervals.
-    shift: u8,
-    /// Intervals from the peak on which the power is not 0.
-    visible: u8,
-    /// Value at the near end in the high half, fall to the far end in the low half, both Q14.
-    table: [u32; Power::INTERVALS],
+    /// The table covers cosines over a width of 2⁻ᵏ.
+    zeros: u8,
+    /// The cosine at which the power begins to show, Q31.
+    start: u32,
+    table: [u16; Power::ENTRIES],
 }
 
 impl Power {
-    const INTERVALS: usize = 128;
-    const INTERVAL_BITS: u32 = Self::INTERVALS.trailing_zeros();
+    const ENTRIES: usize = 512;
     /// One, as a Q31 cosine.
     const ONE: u32 = 1 << 31;
+    /// One, as the power in Q14.
+    const PEAK: u16 = 1 << 14;
 
     /// Tabulates `cosⁿ` for n = `exponent`; 0 counts as 1. Integers only, so it costs the same at compile time and on a chip.
     #[must_use]
     pub const fn new(exponent: u16) -> Self {
         let exponent = if exponent == 0 { 1 } else { exponent };
-        let mut k = 0;
-        while k < 15 && Self::exact(Self::ONE - (Self::ONE >> (k + 1)), exponent) < (1 << 20) {
-            k += 1;
+        let mut zeros = 0;
+        while zeros < 15 && Self::exact(Self::ONE - (Self::ONE >> (zeros + 1)), exponent) < (1 << 21) {
+            zeros += 1;
         }
-        let shift = 31 - k - Self::INTERVAL_BITS;
-        let mut table = [0; Self::INTERVALS];
-        let mut near = Self::knot(0, shift, exponent);
-        let mut i = 0;
-        // Beyond 1/1024 nothing shows.
-        while i < Self::INTERVALS && near >= (1 << 14) / 1024 {
-            let far = Self::knot(i as u32 + 1, shift, exponent);
-            #[expect(clippy::indexing_slicing, reason = "i < INTERVALS; slice::get is not const")]
+        let width = Self::ONE >> (zeros + 9);
+        let mut entries = 0;
+        // Below 1/512 nothing shows.
+        while entries < Self::ENTRIES as u32 && Self::exact(Self::ONE - entries * width - width / 2, exponent) >= (1 << 21) {
+            entries += 1;
+        }
+        // The first entry is for all below it, too.
+        entries = if entries < Self::ENTRIES as u32 { entries + 1 } else { entries };
+        let start = Self::ONE - entries * width;
+        let mut table = [Self::PEAK; Self::ENTRIES];
+        table[0] = 0;
+        let mut i = 1;
+        while i < entries {
+            #[expect(clippy::indexing_slicing, reason = "i < ENTRIES; slice::get is not const")]
             {
-                table[i] = (near << 16) | near.saturating_sub(far);
+                table[i as usize] = ((Self::exact(start + i * width + width / 2, exponent) + (1 << 15)) >> 16) as u16;
             }
-            near = far;
             i += 1;
         }
-        Self { exponent, shift: (shift - 8) as u8, visible: i as u8, table }
-    }
-
-    /// What the table holds at the start of interval i, Q14: a chord lies above the curve by an eighth of the second difference
-    /// in its middle, so half of that is taken off its ends.
-    const fn knot(i: u32, shift: u32, exponent: u16) -> u32 {
-        let width = 1 << shift;
-        let cos = Self::ONE - i * width;
-        let middle = if i == 0 { cos - width } else { cos };
-        let [above, at, below] = [middle + width, middle, middle.saturating_sub(width)];
-        let bow = (Self::exact(above, exponent) + Self::exact(below, exponent)).saturating_sub(2 * Self::exact(at, exponent));
-        (Self::exact(cos, exponent).saturating_sub(bow / 16) + (1 << 15)) >> 16
+        Self { exponent, zeros: zeros as u8, start, table }
     }
 
     /// `cosⁿ` in Q30 by repeated squaring; `cos` is Q31, at most one.
@@ -83,23 +77,38 @@ impl Power {
     /// Whether the power shows at a cosine in Q31: whether [`at`](Self::at) may give more than 0.
     #[must_use]
     pub const fn shows(&self, cos: u32) -> bool {
-        Self::ONE.saturating_sub(cos) < self.reach()
+        cos > self.start
     }
 
-    /// The distance from the peak, `1 − cos` in Q31, from which on the power does not show.
+    /// The cosine from which on the power shows, Q31.
     #[must_use]
-    pub const fn reach(&self) -> u32 {
-        ((self.visible as u32) << 8) << self.shift
+    pub const fn start(&self) -> u32 {
+        self.start
     }
 
-    /// `cosⁿ` in Q14 (one is 16384) for a cosine in Q31; cosines above one count as one, those out of reach give 0.
+    /// k: cosines from [`start`](Self::start) to one lie at heights of 0 to 2²⁹, a height being `(cos − start) · 2^(29 + k)`.
+    #[inline(always)]
+    #[must_use]
+    pub const fn zeros(&self) -> i32 {
+        self.zeros as i32
+    }
+
+    /// `cosⁿ` in Q14 (one is 16384) for a height of the cosine; heights of 0 and less give 0, those above one count as one.
+    #[inline(always)]
+    #[must_use]
+    pub fn at_height(&self, height: i32) -> u32 {
+        let entry = (height >> 20).clamp(0, Self::ENTRIES as i32 - 1);
+        self.table.get(entry as usize).copied().unwrap_or(0).into()
+    }
+
+    /// `cosⁿ` in Q14 for a cosine in Q31; cosines above one count as one.
     #[inline(always)]
     #[must_use]
     pub fn at(&self, cos: u32) -> u32 {
-        let distance = Self::ONE.saturating_sub(cos) >> self.shift;
-        match self.table.get((distance >> 8) as usize) {
-            Some(entry) => (entry >> 16) - (((entry & 0xffff) * (distance & 0xff) + 128) >> 8),
-            None => 0,
+        if cos <= self.start {
+            return 0;
         }
+        // 22 bits are left of a width of 2⁻ᵏ.
+        self.table.get(((cos - self.start) >> (22 - self.zeros)) as usize).copied().unwrap_or(Self::PEAK).into()
     }
 }

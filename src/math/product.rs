@@ -10,20 +10,6 @@ pub const fn mul_high(a: i32, b: u32) -> i32 {
     (a >> 16).wrapping_mul(b as i32).wrapping_add(low)
 }
 
-/// `a · b · 2^(shift − 16)`, the bits below those that are kept cut off, wrapping where they overflow; b ≤ 65536.
-#[inline(always)]
-#[must_use]
-pub const fn mul_scale(a: i32, b: u32, shift: i32) -> i32 {
-    let high = mul_high(a, b);
-    if shift <= 0 {
-        return scale(high, shift);
-    }
-    // Shifting to the left brings in what was cut off.
-    let low = (a as u32).wrapping_mul(b) & 0xffff;
-    let low = if shift <= 16 { low >> (16 - shift) } else { scale(low as i32, shift - 16) as u32 };
-    scale(high, shift) | low as i32
-}
-
 /// `a · 2^shift`, rounded to nearest where bits are lost, wrapping where they overflow.
 #[inline(always)]
 #[must_use]
@@ -50,18 +36,6 @@ mod tests {
         for a in [i32::MIN, -1_000_003, -1, 0, 1, 77_777, i32::MAX] {
             for b in [0u32, 1, 32_768, 65_535, 65_536] {
                 assert_eq!(i64::from(mul_high(a, b)), (i64::from(a) * i64::from(b)) >> 16, "{a} {b}");
-            }
-        }
-    }
-
-    #[test]
-    fn mul_scale_keeps_what_a_left_shift_brings_in() {
-        for a in [-1_000_003, -1, 1, 77_777] {
-            for b in [1u32, 32_769, 65_535] {
-                for shift in 1..20 {
-                    let exact = (i64::from(a) * i64::from(b)) << shift >> 16;
-                    assert_eq!(mul_scale(a, b, shift), exact as i32, "{a} {b} {shift}");
-                }
             }
         }
     }
