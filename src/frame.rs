@@ -1,13 +1,12 @@
 //! From meshes to a picture: transform, light, cull, clip, and sort into buckets by line.
 
-use embedded_graphics::{geometry::Point, primitives::Rectangle};
+use core::slice::from_ref;
+
+use embedded_graphics::{geometry::Size, primitives::Rectangle};
 use heapless::Vec;
 
 use crate::{
-    math::{
-        screen::{area, first_at},
-        vector::Vector,
-    },
+    math::vector::Vector,
     model::{
         camera::Camera,
         clip::{clip, edge_constant, Corner},
@@ -15,7 +14,7 @@ use crate::{
         material::Color,
         mesh::Mesh,
         pose::Pose,
-        projection::Projection,
+        projection::{Projection, Short, Sight},
     },
     scan::{
         bucket::{Kept, TriangleId},
@@ -40,20 +39,22 @@ pub struct Frame<
     const MADE: usize = 16,
 > {
     camera: Camera,
-    viewport: Rectangle,
     background: Background,
     lights: [Light; LIGHTS],
     intensities: [u16; LIGHTS],
     viewer: Vector,
-    vertices: Vec<Vertex<LIGHTS>, VERTICES>,
-    heads: [u16; LINES],
-    kept: Vec<Kept, TRIANGLES>,
+    vertices: [Vertex<LIGHTS>; VERTICES],
+    /// Number of vertices that are there.
+    used: usize,
+    buckets: Buckets<TRIANGLES, LINES>,
     objects: Vec<Object<'m>, OBJECTS>,
     made: Vec<Made, MADE>,
     /// Objects added, those out of sight included.
     added: u16,
     /// Triangles of the objects in sight.
     numbered: u16,
+    /// Materials of the objects in sight.
+    materials: u16,
 }
 
 /// A frame has no room for more; it stays drawable, with what fitted.
@@ -70,7 +71,8 @@ pub enum Full {
         /// Objects that fitted before.
         fitted: u16,
     },
-    /// No numbers left for the object's triangles: all meshes in sight and `MADE` together have 65534 at most.
+    /// No numbers left for the object's triangles: all meshes in sight and `MADE` together have 65534 at most; nor
+    /// more than 65535 materials.
     Numbers {
         /// Triangles of objects in sight before.
         fitted: u16,
@@ -128,18 +130,18 @@ impl<
     pub const fn new() -> Self {
         Self {
             camera: Camera::NONE,
-            viewport: Rectangle::zero(),
             background: Background::Plain(Color::BLACK),
             lights: [Light::OFF; LIGHTS],
             intensities: [0; LIGHTS],
             viewer: Vector([0; 3]),
-            vertices: Vec::new(),
-            heads: [0; LINES],
-            kept: Vec::new(),
+            vertices: [Vertex::NONE; VERTICES],
+            used: 0,
+            buckets: Buckets::new(),
             objects: Vec::new(),
             made: Vec::new(),
             added: 0,
             numbered: 0,
+            materials: 0,
         }
     }
 
@@ -155,19 +157,18 @@ impl<
     /// [`Full::Lines`], if the camera's picture is higher than the frame; its first lines can be drawn.
     pub fn begin(&mut self, camera: &Camera, lights: &[Light; LIGHTS]) -> Result<(), Full> {
         self.camera = *camera;
-        self.viewport = camera.viewport();
         self.lights = *lights;
         self.intensities = lights.each_ref().map(Light::strength);
         self.viewer = camera.viewer();
-        self.vertices.clear();
-        self.heads = [0; LINES];
-        self.kept.clear();
+        self.used = 0;
+        self.buckets.clear(camera.viewport());
         self.objects.clear();
         self.made.clear();
         self.added = 0;
         self.numbered = 0;
-        if self.viewport.size.height as usize > LINES {
-            self.viewport.size.height = LINES as u32;
+        self.materials = 0;
+        if self.buckets.viewport.size.height as usize > LINES {
+            self.buckets.viewport.size.height = LINES as u32;
             return Err(Full::Lines { fitted: LINES as u16 });
         }
         Ok(())
@@ -182,64 +183,77 @@ impl<
         self.added = self.added.saturating_add(1);
         let data = mesh.data();
         let projection = self.camera.project(mesh, pose);
-        if projection.hides(data.center, data.radius) {
+        let sight = projection.sight(data.center, data.radius);
+        if matches!(sight, Sight::Hidden) {
             return Ok(());
         }
-        let first_vertex = self.vertices.len() as u16;
+        let first_vertex = self.used as u16;
         let first_triangle = self.numbered;
         let numbered = usize::from(first_triangle) + data.triangles.len();
         if numbered + MADE > usize::from(TriangleId::MADE) {
             return Err(Full::Numbers { fitted: first_triangle });
         }
+        let first_material = self.materials;
+        let Some(materials) = u16::try_from(data.materials.len()).ok().and_then(|more| first_material.checked_add(more)) else {
+            return Err(Full::Numbers { fitted: first_triangle });
+        };
         // Vertices are numbered in 16 bits.
-        let room = VERTICES.min(0x1_0000).saturating_sub(self.vertices.len());
+        let room = VERTICES.min(0x1_0000).saturating_sub(self.used);
         if data.positions.len() > room {
             return Err(Full::Vertices { fitted: room as u16 });
         }
-        let object = Object { mesh, number, first_vertex, first_triangle };
+        let object = Object { mesh, number, first_vertex, first_triangle, first_material };
         if self.objects.push(object).is_err() {
             return Err(Full::Objects { fitted: OBJECTS as u16 });
         }
         self.numbered = numbered as u16;
+        self.materials = materials;
         let aims = self.lights.map(|light| light.aim(self.viewer, pose.rotation));
-        for (position, normal) in data.positions.iter().zip(data.normals) {
-            let place = projection.screen(projection.eye(*position));
-            let _ = self.vertices.push(Vertex::new(place, aims.each_ref().map(|aim| aim.dots(*normal))));
+        let vertices = self.vertices.get_mut(usize::from(first_vertex)..).unwrap_or_default();
+        self.used += data.positions.len();
+        light(&aims, data.normals, vertices);
+        if let Sight::Whole(way) = &sight {
+            place(way, data.positions, vertices);
+        } else {
+            for (vertex, position) in vertices.iter_mut().zip(data.positions) {
+                *vertex = Vertex::new(projection.screen(projection.eye(*position)), vertex.dots);
+            }
         }
-        self.keep(&object, &projection, &aims)
+        self.keep(&object, &projection, &aims, matches!(sight, Sight::Whole(_)))
     }
 
     /// Culls, clips and sorts the triangles of an object whose vertices are there.
-    fn keep(&mut self, object: &Object<'m>, projection: &Projection, aims: &[Aim; LIGHTS]) -> Result<(), Full> {
+    fn keep(&mut self, object: &Object<'m>, projection: &Projection, aims: &[Aim; LIGHTS], is_whole: bool) -> Result<(), Full> {
         let data = object.mesh.data();
-        let mut triangles = data.triangles.iter();
+        let mut rest = data.triangles;
         let mut id = object.first_triangle;
-        let (mut fitted, mut left_out) = (0, 0);
-        let (mut made, mut unmade) = (0, 0);
+        let mut tally = Tally::default();
         for [count, material] in data.parts {
             let double_sided = data.materials.get(usize::from(*material)).is_some_and(|material| material.double_sided);
-            for corners in triangles.by_ref().take(usize::from(*count)) {
-                let kept = self.vertices_at(object.first_vertex, *corners).map_or(Fate::Unseen, |[a, b, c]| {
-                    if a.nearness() == 0 || b.nearness() == 0 || c.nearness() == 0 {
-                        Fate::Clip
-                    } else {
-                        self.judge([a.point(), b.point(), c.point()], double_sided)
-                    }
-                });
-                match kept {
-                    Fate::Unseen => {}
-                    Fate::Starts(line) => match self.start(line, TriangleId(id)) {
-                        Ok(()) => fitted += 1,
-                        Err(()) => left_out += 1,
-                    },
-                    Fate::Clip => match self.cut(object, *corners, TriangleId(id), double_sided, projection, aims) {
-                        Ok(parts) => made += parts,
-                        Err(()) => unmade += 1,
-                    },
-                }
+            let (triangles, others) = rest.split_at_checked(usize::from(*count)).unwrap_or((rest, &[]));
+            rest = others;
+            if is_whole {
+                let vertices = self.vertices.get(usize::from(object.first_vertex)..self.used).unwrap_or_default();
+                tally.sorted += self.buckets.sort(vertices, triangles, TriangleId(id), double_sided);
+                id += *count;
+                continue;
+            }
+            for corners in triangles {
+                let whole = TriangleId(id);
                 id += 1;
+                let vertices = self.vertices.get(usize::from(object.first_vertex)..self.used).unwrap_or_default();
+                let Some([a, b, c]) = at(vertices, *corners) else { continue };
+                if a.nearness() == 0 || b.nearness() == 0 || c.nearness() == 0 {
+                    match self.cut(object, *corners, whole, double_sided, projection, aims) {
+                        Ok(parts) => tally.made += parts,
+                        Err(()) => tally.unmade += 1,
+                    }
+                } else {
+                    tally.sorted += self.buckets.sort(vertices, from_ref(corners), whole, double_sided);
+                }
             }
         }
+        let Tally { sorted: Sorted { fitted, left_out }, made, unmade } = tally;
         if left_out > 0 {
             Err(Full::Triangles { fitted, left_out })
         } else if unmade > 0 {
@@ -247,39 +261,6 @@ impl<
         } else {
             Ok(())
         }
-    }
-
-    /// The vertices with these numbers, counted from `first`.
-    #[inline]
-    fn vertices_at(&self, first: u16, corners: [u16; 3]) -> Option<[&Vertex<LIGHTS>; 3]> {
-        let [a, b, c] = corners.map(|corner| self.vertices.get(usize::from(first) + usize::from(corner)));
-        Some([a?, b?, c?])
-    }
-
-    /// Whether a projected triangle faces the eye and can cover a pixel, and from which line on.
-    #[inline]
-    fn judge(&self, [a, b, c]: [Point; 3], double_sided: bool) -> Fate {
-        let area = area(a, b, c);
-        if area == 0 || (area > 0 && !double_sided) {
-            return Fate::Unseen;
-        }
-        let lines = |least: i32, most: i32| (first_at(least), first_at(most));
-        let (top, bottom) = lines(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-        let (left, right) = lines(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
-        let size = self.viewport.size;
-        if top >= bottom || bottom <= 0 || top >= size.height as i32 || left >= right || right <= 0 || left >= size.width as i32 {
-            return Fate::Unseen;
-        }
-        Fate::Starts(top.max(0) as u16)
-    }
-
-    /// Puts a triangle into the bucket of the line on which it starts.
-    #[inline]
-    fn start(&mut self, line: u16, triangle: TriangleId) -> Result<(), ()> {
-        let Some(head) = self.heads.get_mut(usize::from(line)) else { return Err(()) };
-        self.kept.push(Kept { next: *head, triangle }).map_err(|_| ())?;
-        *head = self.kept.len() as u16;
-        Ok(())
     }
 
     /// Clips a triangle and keeps what is left, all of it or nothing; returns 1 if anything is left.
@@ -303,58 +284,52 @@ impl<
             Corner { eye: projection.eye(position), normal, vertex }
         };
         let mut polygon = clip(projection, corners.map(corner));
-        let (vertices, made, kept) = (self.vertices.len(), self.made.len(), self.kept.len());
+        let (used, made, kept) = (self.used, self.made.len(), self.buckets.used);
         for corner in &mut polygon {
             if corner.vertex.is_some() {
                 continue;
             }
             let vertex = Vertex::new(projection.screen(corner.eye), aims.each_ref().map(|aim| aim.dots(corner.normal)));
-            corner.vertex = Some(self.vertices.len() as u16);
-            if self.vertices.len() > 0xffff || self.vertices.push(vertex).is_err() {
-                self.vertices.truncate(vertices);
+            corner.vertex = Some(self.used as u16);
+            let Some(room) = self.vertices.get_mut(self.used).filter(|_| self.used <= 0xffff) else {
+                self.used = used;
                 return Err(());
-            }
+            };
+            *room = vertex;
+            self.used += 1;
         }
         let Some((first, rest)) = polygon.split_first() else { return Ok(0) };
         for pair in rest.windows(2) {
             let [second, third] = pair else { continue };
             let [Some(a), Some(b), Some(c)] = [first.vertex, second.vertex, third.vertex] else { continue };
-            let Some([va, vb, vc]) = self.vertices_at(0, [a, b, c]) else { continue };
-            let Fate::Starts(line) = self.judge([va.point(), vb.point(), vc.point()], double_sided) else { continue };
+            let id = TriangleId(TriangleId::MADE - self.made.len() as u16);
+            let vertices = self.vertices.get(..self.used).unwrap_or_default();
+            let sorted = self.buckets.sort(vertices, &[[a, b, c]], id, double_sided);
+            if sorted.fitted + sorted.left_out == 0 {
+                continue;
+            }
             let edge = |a: &Corner, b: &Corner| edge_constant(a.normal, b.normal);
             let part = Made { whole, corners: [a, b, c], edges: [edge(first, second), edge(second, third), edge(third, first)] };
-            let id = TriangleId(TriangleId::MADE - self.made.len() as u16);
-            if self.made.push(part).is_err() || self.start(line, id).is_err() {
-                self.forget(vertices, made, kept);
+            if sorted.left_out > 0 || self.made.push(part).is_err() {
+                self.buckets.forget(kept);
+                self.made.truncate(made);
+                self.used = used;
                 return Err(());
             }
         }
         Ok(u16::from(self.made.len() > made))
     }
 
-    /// Takes back all that was made after so many vertices, made and kept triangles.
-    fn forget(&mut self, vertices: usize, made: usize, kept: usize) {
-        while self.kept.len() > kept {
-            let place = self.kept.len() as u16;
-            let Some(last) = self.kept.pop() else { break };
-            if let Some(head) = self.heads.iter_mut().find(|head| **head == place) {
-                *head = last.next;
-            }
-        }
-        self.made.truncate(made);
-        self.vertices.truncate(vertices);
-    }
-
     /// The finished frame.
     #[must_use]
     pub fn picture(&self) -> Picture<'_, LIGHTS> {
         Picture {
-            viewport: self.viewport,
+            viewport: self.buckets.viewport,
             background: self.background,
             intensities: &self.intensities,
-            vertices: &self.vertices,
-            heads: &self.heads,
-            kept: &self.kept,
+            vertices: self.vertices.get(..self.used).unwrap_or_default(),
+            heads: &self.buckets.heads,
+            kept: self.buckets.kept.get(..self.buckets.used).unwrap_or_default(),
             objects: &self.objects,
             made: &self.made,
         }
@@ -375,12 +350,147 @@ impl<
     }
 }
 
-/// What becomes of a triangle.
-enum Fate {
-    /// It faces away, is empty, or lies beside the picture.
-    Unseen,
-    /// It is to be drawn from that line on.
-    Starts(u16),
-    /// It must be clipped first.
-    Clip,
+/// Lights the vertices of an object.
+#[inline(never)]
+fn light<const LIGHTS: usize>(aims: &[Aim; LIGHTS], normals: &[[i16; 3]], vertices: &mut [Vertex<LIGHTS>]) {
+    for (vertex, normal) in vertices.iter_mut().zip(normals) {
+        vertex.dots = aims.each_ref().map(|aim| aim.dots(*normal));
+    }
+}
+
+/// Places the vertices of an object that is wholly in sight.
+#[inline(never)]
+fn place<const LIGHTS: usize>(way: &Short, positions: &[[i16; 3]], vertices: &mut [Vertex<LIGHTS>]) {
+    for (vertex, position) in vertices.iter_mut().zip(positions) {
+        let (place, nearness) = way.screen(*position);
+        vertex.place(place, nearness);
+    }
+}
+
+/// What became of an object's triangles.
+#[derive(Default)]
+struct Tally {
+    sorted: Sorted,
+    /// Clipped.
+    made: u16,
+    /// To be clipped and left out.
+    unmade: u16,
+}
+
+/// How many triangles that can cover a pixel got a place.
+#[derive(Default)]
+struct Sorted {
+    fitted: u16,
+    left_out: u16,
+}
+
+impl core::ops::AddAssign for Sorted {
+    fn add_assign(&mut self, more: Self) {
+        self.fitted += more.fitted;
+        self.left_out += more.left_out;
+    }
+}
+
+/// The vertices with these numbers.
+#[inline(always)]
+fn at<const LIGHTS: usize>(vertices: &[Vertex<LIGHTS>], [a, b, c]: [u16; 3]) -> Option<[&Vertex<LIGHTS>; 3]> {
+    Some([vertices.get(usize::from(a))?, vertices.get(usize::from(b))?, vertices.get(usize::from(c))?])
+}
+
+/// Whether a triangle covers anything on the screen and shows the eye a side that is to be seen.
+#[inline(always)]
+fn is_seen<const LIGHTS: usize>([a, b, c]: [&Vertex<LIGHTS>; 3], double_sided: bool) -> bool {
+    let (a, b, c) = (a.point(), b.point(), c.point());
+    let (bx, by, cx, cy) = (b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+    // Twice the area in two parts, as products of 20 and 10 bits.
+    let part = |cx: i32, cy: i32| bx.wrapping_mul(cy).wrapping_sub(by.wrapping_mul(cx));
+    let low = part(cx & 0x3ff, cy & 0x3ff);
+    let high = part(cx >> 10, cy >> 10).wrapping_add(low >> 10);
+    high < 0 || (double_sided && (high > 0 || low & 0x3ff != 0))
+}
+
+/// The triangles that are to be drawn, by the line on which they start.
+#[derive(Clone, Debug)]
+struct Buckets<const TRIANGLES: usize, const LINES: usize> {
+    viewport: Rectangle,
+    heads: [u16; LINES],
+    kept: [Kept; TRIANGLES],
+    /// Number of triangles that are kept.
+    used: usize,
+}
+
+impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
+    const fn new() -> Self {
+        let kept = [Kept { next: 0, triangle: TriangleId(0) }; TRIANGLES];
+        Self { viewport: Rectangle::zero(), heads: [0; LINES], kept, used: 0 }
+    }
+
+    /// Starts a new frame.
+    fn clear(&mut self, viewport: Rectangle) {
+        self.viewport = viewport;
+        self.heads = [0; LINES];
+        self.used = 0;
+    }
+
+    /// Sorts triangles with consecutive numbers and projected corners, as far as they are seen.
+    #[inline(never)]
+    fn sort<const LIGHTS: usize>(
+        &mut self,
+        vertices: &[Vertex<LIGHTS>],
+        triangles: &[[u16; 3]],
+        first: TriangleId,
+        double_sided: bool,
+    ) -> Sorted {
+        let size = self.viewport.size;
+        let (mut used, mut left_out) = (self.used, 0);
+        let TriangleId(mut id) = first;
+        for corners in triangles {
+            if let Some(corners) = at(vertices, *corners) {
+                if is_seen(corners, double_sided) {
+                    if let Some(line) = first_line(corners, size) {
+                        match (self.heads.get_mut(line), self.kept.get_mut(used)) {
+                            (Some(head), Some(room)) => {
+                                *room = Kept { next: *head, triangle: TriangleId(id) };
+                                used += 1;
+                                *head = used as u16;
+                            }
+                            _ => left_out += 1,
+                        }
+                    }
+                }
+            }
+            id = id.wrapping_add(1);
+        }
+        Sorted { fitted: (used - core::mem::replace(&mut self.used, used)) as u16, left_out }
+    }
+
+    /// Takes back all triangles after so many.
+    fn forget(&mut self, used: usize) {
+        while self.used > used {
+            let place = self.used as u16;
+            self.used -= 1;
+            let next = self.kept.get(self.used).map_or(0, |kept| kept.next);
+            if let Some(head) = self.heads.iter_mut().find(|head| **head == place) {
+                *head = next;
+            }
+        }
+    }
+}
+
+/// The line on which a triangle starts in a picture of that size; none if it cannot cover a pixel.
+#[inline(always)]
+fn first_line<const LIGHTS: usize>(corners: [&Vertex<LIGHTS>; 3], size: Size) -> Option<usize> {
+    let [a, b, c] = corners.map(Vertex::pixel);
+    let is_between = is_between([a.y, b.y, c.y], size.height as i32) && is_between([a.x, b.x, c.x], size.width as i32);
+    is_between.then(|| a.y.min(b.y).min(c.y).max(0) as usize)
+}
+
+/// Whether one of the first `count` pixels lies between three borders of pixels.
+#[inline(always)]
+fn is_between([a, b, c]: [i32; 3], count: i32) -> bool {
+    if a == b && a == c {
+        return false;
+    }
+    // One border inside is enough, as another one is elsewhere.
+    (a > 0 && a < count) || (a.max(b).max(c) > 0 && a.min(b).min(c) < count)
 }

@@ -1,6 +1,6 @@
 //! Lights.
 
-use crate::math::{product::mul_high, rotation::Rotation, vector::Vector};
+use crate::math::{rotation::Rotation, vector::Vector};
 
 /// A directional light of white colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,17 +46,20 @@ impl Light {
     pub fn aim(&self, viewer: Vector, object: Rotation) -> Aim {
         let half = if self.intensity == 0 { None } else { Vector::unit(self.direction + viewer) };
         let back = object.inverse();
-        let short = |vector: Vector| back.turn(vector).0.map(|c| (c + (1 << 13)) >> 14);
-        Aim { light: short(self.direction), half: half.map_or([0; 3], short), intensity: u32::from(self.intensity) }
+        // Q30 · Q15 to Q16.
+        let short = |vector: Vector, factor: u16| {
+            back.turn(vector).0.map(|c| ((i64::from(c) * i64::from(factor) + (1 << 28)) >> 29) as i32)
+        };
+        Aim { light: short(self.direction, self.intensity), half: half.map_or([0; 3], |half| short(half, 1 << 15)) }
     }
 }
 
 /// A light as an object's vertices see it: two directions in the object's space, Q16.
 #[derive(Clone, Copy, Debug)]
 pub struct Aim {
+    /// As long as the light is intense.
     light: [i32; 3],
     half: [i32; 3],
-    intensity: u32,
 }
 
 impl Aim {
@@ -70,6 +73,6 @@ impl Aim {
             x.wrapping_mul(nx).wrapping_add(y.wrapping_mul(ny)).wrapping_add(z.wrapping_mul(nz))
         };
         let round = |product: i32| (product.wrapping_add(1 << 15) >> 16) as i16;
-        [round(mul_high(dot(self.light), self.intensity << 1)), round(dot(self.half))]
+        [round(dot(self.light)), round(dot(self.half))]
     }
 }

@@ -38,9 +38,18 @@ const fn factor(value: f32) -> u16 {
     }
 }
 
-/// The nearest level of `base · light`, base in Q15, light in 1/512 of that, one being `largest`.
+/// The nearest level of `base · light`, base in Q15, light in Q23, one being `largest`.
 const fn shade(base: u16, light: u64, largest: u64) -> u32 {
-    ((base as u64 * light * largest + (1 << 38)) >> 39) as u32
+    ((base as u64 * light * largest + (1 << 37)) >> 38) as u32
+}
+
+/// At most one, Q23.
+const fn saturated(light: u64) -> u64 {
+    if light > 1 << 23 {
+        1 << 23
+    } else {
+        light
+    }
 }
 
 /// Light on a colour, spread as [`Material::SPREAD`] says.
@@ -52,7 +61,7 @@ const fn spread(Color([red, green, blue]): Color, light: u64) -> u32 {
 /// A surface under Phong's illumination model (*Faster Phong Shading*, Eq. 1):
 /// `ambient·base + diffuse·base·(n·l) + specular·highlight·(n·h)ⁿ`, both products clamped at 0, the sum saturating.
 ///
-/// Built in a `const` or `static`, so that it lives in flash together with its tables, about 2.6 kB.
+/// Built in a `const` or `static`, so that it lives in flash together with its tables, about 3.6 kB.
 ///
 /// ```
 /// use beamshade::{Color, Material};
@@ -70,12 +79,12 @@ pub struct Material {
     pub(crate) double_sided: bool,
     pub(crate) plain: bool,
     pub(crate) power: Power,
-    /// Rgb565 of the ambient and diffuse light alone, in the middle of 256 equal steps of the diffuse intensity up to one.
+    /// Rgb565 of the ambient and diffuse light alone, in the middle of 256 equal steps of the diffuse intensity up to two.
     pub(crate) ramp: [u16; Self::STEPS],
     /// The same with four bits more for each channel and half a level for rounding, see [`Material::SPREAD`].
     pub(crate) dull: [u32; Self::STEPS],
-    /// The highlight in 128 equal steps of the specular intensity up to one, likewise.
-    pub(crate) gloss: [u32; Self::STEPS / 2],
+    /// The highlight in 256 equal steps of the specular intensity up to two, likewise.
+    pub(crate) gloss: [u32; Self::STEPS],
 }
 
 impl Material {
@@ -93,7 +102,7 @@ impl Material {
             power: Power::new(32),
             ramp: [0; Self::STEPS],
             dull: [0; Self::STEPS],
-            gloss: [0; Self::STEPS / 2],
+            gloss: [0; Self::STEPS],
         }
         .ramped()
     }
@@ -101,23 +110,23 @@ impl Material {
     /// Steps of the ramp.
     const STEPS: usize = 256;
 
-    /// Places of red, green and blue in a sum of light: each has its level of Rgb565, four bits below it, and one above.
-    pub(crate) const SPREAD: [u32; 3] = [21, 10, 0];
+    /// Places of red, green and blue in a sum of light: each has its level of Rgb565, four bits below it, and one above. Shifted
+    /// by those four, red and blue are where Rgb565 has them, and green is 16 bits above.
+    pub(crate) const SPREAD: [u32; 3] = [11, 21, 0];
 
     /// The same with its ramps made anew.
     const fn ramped(mut self) -> Self {
         let mut step = 0;
         while step < Self::STEPS {
-            let light = self.ambient as u64 * 512 + self.diffuse as u64 * (2 * step as u64 + 1);
-            let light = if light > 512 << 15 { 512 << 15 } else { light };
+            // In the middle of a step of 1/128; the sum of two saturated ones has one bit more.
+            let middle = 2 * step as u64 + 1;
+            let light = saturated(self.ambient as u64 * 256 + self.diffuse as u64 * middle);
+            let [red, green, blue] = self.base.0;
             #[expect(clippy::indexing_slicing, reason = "step < STEPS; slice::get is not const")]
             {
-                let [red, green, blue] = self.base.0;
                 self.ramp[step] = (shade(red, light, 31) << 11 | shade(green, light, 63) << 5 | shade(blue, light, 31)) as u16;
-                self.dull[step] = spread(self.base, light) + (8 << 21 | 8 << 10 | 8);
-                if step < Self::STEPS / 2 {
-                    self.gloss[step] = spread(self.highlight, self.specular as u64 * 2 * (2 * step as u64 + 1));
-                }
+                self.dull[step] = spread(self.base, light) + (8 << 21 | 8 << 11 | 8);
+                self.gloss[step] = spread(self.highlight, saturated(self.specular as u64 * middle));
             }
             step += 1;
         }
@@ -193,7 +202,7 @@ impl Material {
             power: Power::new(exponent),
             ramp: [0; Self::STEPS],
             dull: [0; Self::STEPS],
-            gloss: [0; Self::STEPS / 2],
+            gloss: [0; Self::STEPS],
         }
         .ramped()
     }

@@ -170,7 +170,11 @@ impl<'a> Mesh<'a> {
     }
 
     /// The number of a triangle's material; none for a number that is no triangle's.
+    #[inline]
     pub(crate) fn material_number(&self, triangle: u16) -> Option<u16> {
+        if let [[_, material]] = self.data.parts {
+            return Some(*material);
+        }
         let mut end = 0;
         let [_, material] = self.data.parts.iter().find(|[count, _]| {
             end += u32::from(*count);

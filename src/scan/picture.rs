@@ -6,9 +6,12 @@ use super::{
     bucket::{Kept, Starting, TriangleId},
     vertex::Vertex,
 };
-use crate::model::{
-    material::{Color, Material},
-    mesh::Mesh,
+use crate::{
+    math::screen::area,
+    model::{
+        material::{Color, Material},
+        mesh::Mesh,
+    },
 };
 
 /// What fills a line where no triangle is seen.
@@ -44,6 +47,7 @@ pub struct Object<'m> {
     pub(crate) number: u16,
     pub(crate) first_vertex: u16,
     pub(crate) first_triangle: u16,
+    pub(crate) first_material: u16,
 }
 
 /// A triangle made by clipping.
@@ -58,14 +62,14 @@ pub struct Made {
 
 /// A triangle with all that set-up needs.
 #[derive(Clone, Copy, Debug)]
-pub struct Triangle<const LIGHTS: usize> {
+pub struct Triangle<'f, const LIGHTS: usize> {
     /// Its corners; on the screen they may run either way round.
-    pub corners: [Vertex<LIGHTS>; 3],
+    pub corners: [&'f Vertex<LIGHTS>; 3],
     /// The edge constants of edges 01, 12, 20, Q15.
-    pub edges: [u16; 3],
+    pub edges: &'f [u16; 3],
 }
 
-impl<const LIGHTS: usize> Triangle<LIGHTS> {
+impl<const LIGHTS: usize> Triangle<'_, LIGHTS> {
     /// Its corners on the screen.
     #[inline]
     #[must_use]
@@ -74,13 +78,20 @@ impl<const LIGHTS: usize> Triangle<LIGHTS> {
         [a.point(), b.point(), c.point()]
     }
 
-    /// The same seen from behind: with turned normals.
+    /// Whether it is seen from behind.
+    pub(crate) fn is_turned(&self) -> bool {
+        let [a, b, c] = self.points();
+        area(a, b, c) > 0
+    }
+
+    /// Its corners as seen from behind: with turned normals.
     #[must_use]
-    pub fn turned(mut self) -> Self {
-        for corner in &mut self.corners {
+    pub fn turned(&self) -> [Vertex<LIGHTS>; 3] {
+        let mut corners = self.corners.map(|corner| *corner);
+        for corner in &mut corners {
             corner.dots = corner.dots.map(|dots| dots.map(i16::wrapping_neg));
         }
-        self
+        corners
     }
 }
 
@@ -133,8 +144,11 @@ impl<'f, const LIGHTS: usize> Picture<'f, LIGHTS> {
     /// The object of a mesh's triangle, and the number of the triangle in the mesh.
     #[inline]
     pub(crate) fn object(&self, whole: TriangleId) -> Option<(&'f Object<'f>, u16)> {
-        let object = self.objects.iter().rev().find(|object| object.first_triangle <= whole.0)?;
-        Some((object, whole.0 - object.first_triangle))
+        let object = match self.objects {
+            [only] => only,
+            many => many.iter().rev().find(|object| object.first_triangle <= whole.0)?,
+        };
+        Some((object, whole.0.wrapping_sub(object.first_triangle)))
     }
 
     /// Where a triangle comes from.
@@ -143,54 +157,61 @@ impl<'f, const LIGHTS: usize> Picture<'f, LIGHTS> {
         Some(Source { object: object.number, triangle })
     }
 
-    /// The place of a triangle's object among the picture's, and of its material in the object's mesh.
-    pub(crate) fn look(&self, id: TriangleId) -> [u16; 2] {
-        let whole = self.whole(id);
-        let object = self.objects.iter().rposition(|object| object.first_triangle <= whole.0).unwrap_or(0);
-        let material = self.objects.get(object).map_or(0, |object| {
-            let triangle = whole.0.wrapping_sub(object.first_triangle);
-            object.mesh.material_number(triangle).unwrap_or(0)
-        });
-        [object as u16, material]
+    /// The material with that number among those of all objects.
+    #[inline]
+    pub(crate) fn material(&self, look: u16) -> Option<&'f Material> {
+        let object = self.objects.iter().rev().find(|object| object.first_material <= look)?;
+        object.mesh.data().materials.get(usize::from(look - object.first_material))
     }
 
-    /// The material at such a place.
+    /// A triangle's numbers.
     #[inline]
-    pub(crate) fn material(&self, [object, material]: [u16; 2]) -> Option<&'f Material> {
-        self.objects.get(usize::from(object))?.mesh.data().materials.get(usize::from(material))
+    pub(crate) fn numbers(&self, id: TriangleId) -> Option<Numbers<'f>> {
+        let made = self.made.get(usize::from(TriangleId::MADE.wrapping_sub(id.0)));
+        let (object, triangle) = self.object(made.map_or(id, |made| made.whole))?;
+        let data = object.mesh.data();
+        let index = usize::from(triangle);
+        let (corners, edges) = match made {
+            Some(made) => (made.corners, &made.edges),
+            None => {
+                let corners = *data.triangles.get(index)?;
+                (corners.map(|corner| corner.wrapping_add(object.first_vertex)), data.edges.get(index)?)
+            }
+        };
+        Some(Numbers { object, triangle, corners, edges })
     }
 
     /// A triangle, fetched.
     #[inline]
-    pub(crate) fn triangle(&self, id: TriangleId) -> Option<Triangle<LIGHTS>> {
-        let (first, corners, edges) = self.corners(id)?;
-        let [a, b, c] = self.vertices_at(first, corners)?;
-        Some(Triangle { corners: [*a, *b, *c], edges: *edges })
+    pub(crate) fn triangle(&self, id: TriangleId) -> Option<Triangle<'f, LIGHTS>> {
+        let Numbers { corners: [a, b, c], edges, .. } = self.numbers(id)?;
+        Some(Triangle { corners: [self.vertex(a)?, self.vertex(b)?, self.vertex(c)?], edges })
     }
 
-    /// The corners of a triangle on the screen.
+    /// A vertex by its number in the frame.
     #[inline]
-    pub(crate) fn points(&self, id: TriangleId) -> Option<[Point; 3]> {
-        let (first, corners, _) = self.corners(id)?;
-        let [a, b, c] = self.vertices_at(first, corners)?;
-        Some([a.point(), b.point(), c.point()])
+    pub(crate) fn vertex(&self, number: u16) -> Option<&'f Vertex<LIGHTS>> {
+        self.vertices.get(usize::from(number))
     }
+}
 
-    /// The number from which a triangle's corners count, theirs, and its edge constants.
-    #[inline]
-    fn corners(&self, id: TriangleId) -> Option<(u16, [u16; 3], &'f [u16; 3])> {
-        if let Some(made) = self.made.get(usize::from(TriangleId::MADE.wrapping_sub(id.0))) {
-            return Some((0, made.corners, &made.edges));
-        }
-        let (object, triangle) = self.object(id)?;
-        let data = object.mesh.data();
-        let triangle = usize::from(triangle);
-        Some((object.first_vertex, *data.triangles.get(triangle)?, data.edges.get(triangle)?))
-    }
+/// Where a triangle is to be found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Numbers<'f> {
+    object: &'f Object<'f>,
+    /// Of the mesh's triangle that it is, or is a part of.
+    triangle: u16,
+    /// Its corners among the frame's vertices.
+    pub(crate) corners: [u16; 3],
+    /// The edge constants of edges 01, 12, 20, Q15.
+    pub(crate) edges: &'f [u16; 3],
+}
 
+impl Numbers<'_> {
+    /// The number of its material among those of all objects.
     #[inline]
-    fn vertices_at(&self, first: u16, corners: [u16; 3]) -> Option<[&'f Vertex<LIGHTS>; 3]> {
-        let [a, b, c] = corners.map(|corner| self.vertices.get(usize::from(first) + usize::from(corner)));
-        Some([a?, b?, c?])
+    pub(crate) fn look(&self) -> u16 {
+        let material = self.object.mesh.material_number(self.triangle).unwrap_or(0);
+        self.object.first_material.wrapping_add(material)
     }
 }

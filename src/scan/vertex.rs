@@ -2,7 +2,7 @@
 
 use embedded_graphics::geometry::Point;
 
-use crate::model::projection::Projected;
+use crate::{math::screen::SUBPIXELS, model::projection::Projected};
 
 /// A vertex as a frame holds it: 8 bytes of place and nearness, 4 for each light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,16 +16,25 @@ pub struct Vertex<const LIGHTS: usize> {
 }
 
 impl<const LIGHTS: usize> Vertex<LIGHTS> {
+    /// No vertex yet.
+    pub const NONE: Self = Self::new(None, [[0; 2]; LIGHTS]);
+
     /// A vertex there; or, for none, one that triangles must be clipped for.
     #[inline]
     #[must_use]
     pub const fn new(projected: Option<Projected>, dots: [[i16; 2]; LIGHTS]) -> Self {
-        match projected {
-            Some(Projected { point, nearness }) => {
-                Self { x: ((point.x as u32) << 12) | (nearness >> 12), y: ((point.y as u32) << 12) | (nearness & 0xfff), dots }
-            }
-            None => Self { x: 0, y: 0, dots },
+        let mut vertex = Self { x: 0, y: 0, dots };
+        if let Some(Projected { point, nearness }) = projected {
+            vertex.place([point.x << 12, point.y << 12], nearness);
         }
+        vertex
+    }
+
+    /// Puts it there; the coordinates in Q12, rounded down.
+    #[inline(always)]
+    pub const fn place(&mut self, [x, y]: [i32; 2], nearness: u32) {
+        self.x = (x as u32 & !0xfff) | (nearness >> 12);
+        self.y = (y as u32 & !0xfff) | (nearness & 0xfff);
     }
 
     /// Place on the screen, in subpixels.
@@ -33,6 +42,15 @@ impl<const LIGHTS: usize> Vertex<LIGHTS> {
     #[must_use]
     pub const fn point(&self) -> Point {
         Point::new(self.x as i32 >> 12, self.y as i32 >> 12)
+    }
+
+    /// The column and the row of the first pixel centres at or after the place, as
+    /// [`first_at`](crate::math::screen::first_at) finds them.
+    #[inline(always)]
+    #[must_use]
+    pub const fn pixel(&self) -> Point {
+        const HALF: i32 = (SUBPIXELS / 2 - 1) << 12;
+        Point::new((self.x as i32).wrapping_add(HALF) >> 20, (self.y as i32).wrapping_add(HALF) >> 20)
     }
 
     /// 1/z with 23 bits at the near plane; 0 for a vertex that could not be projected.
