@@ -1,8 +1,6 @@
 //! The triangles that cross a line.
 
-use embedded_graphics::geometry::Point;
-
-use super::{bucket::TriangleId, edge::Edge, picture::Triangle};
+use super::{bucket::TriangleId, edge::Edge, picture::Picture, table::Span, vertex::Vertex};
 use crate::math::{
     gradient::Gradient,
     screen::{area, first_at},
@@ -13,21 +11,22 @@ use crate::math::{
 pub struct Active {
     left: Edge,
     right: Edge,
-    /// Nearness at the anchor, and its increase for a pixel to the right and down; wrapping. Valid once `deep`.
+    /// Nearness at the centre of pixel (0, 0), and its increase for a pixel to the right and down; wrapping. Valid once `deep`.
     depth: [i32; 3],
-    anchor: [i16; 2],
-    /// The first line below the middle corner, and below the last.
-    middle: u16,
-    pub(crate) end: u16,
+    /// The first line below the middle corner, until it is reached; then that below the last.
+    turn: u16,
+    /// The first line below the last corner.
+    end: u16,
+    /// The least and the largest nearness of the corners, the upper 16 bits, rounded apart.
+    far: u16,
+    near: u16,
     pub(crate) id: TriangleId,
-    /// Its object's place in the picture, and its material's in the object's mesh.
-    pub(crate) look: [u16; 2],
-    /// Of the mesh's triangle that this is or is a part of: decides ties.
-    pub(crate) whole: TriangleId,
+    /// The middle and the last corner, among the frame's vertices.
+    lower: [u16; 2],
+    /// The next free slot, if this one is free.
+    pub(crate) next: u16,
     /// Whether the middle corner is on the left.
     middle_left: bool,
-    /// Whether it is seen from behind.
-    pub(crate) turned: bool,
     /// Whether `depth` is there.
     pub(crate) deep: bool,
     /// Whether its facet is set up.
@@ -35,7 +34,7 @@ pub struct Active {
 }
 
 /// Bits of a depth below those of a nearness.
-const FINER: u32 = 7;
+const FINER: i32 = 7;
 
 impl Active {
     /// No triangle.
@@ -43,89 +42,129 @@ impl Active {
         left: Edge::NONE,
         right: Edge::NONE,
         depth: [0; 3],
-        anchor: [0; 2],
-        middle: 0,
+        turn: 0,
         end: 0,
+        far: 0,
+        near: 0,
         id: TriangleId(0),
-        look: [0; 2],
-        whole: TriangleId(0),
+        lower: [0; 2],
+        next: 0,
         middle_left: false,
-        turned: false,
         deep: false,
         shaded: false,
     };
 
-    /// The triangle on line `line`, on which or above which it must start; none if it is not on that line.
-    #[inline]
-    pub(crate) fn new(points: [Point; 3], id: TriangleId, line: u16) -> Option<Self> {
-        let [top, middle, bottom] = by_height(points);
-        let [start, middle_line, end] = [top, middle, bottom].map(|point| first_at(point.y));
-        let line = i32::from(line);
-        if line < start || line >= end {
+    /// Becomes a triangle on line `line`, on which or above which it must start. Returns the number of its material; none if it
+    /// is not on that line.
+    #[inline(never)]
+    pub(crate) fn begin<const LIGHTS: usize>(&mut self, id: TriangleId, line: u16, picture: &Picture<'_, LIGHTS>) -> Option<u16> {
+        let numbers = picture.numbers(id)?;
+        let look = numbers.look();
+        let [na, nb, nc] = numbers.corners;
+        let (a, b, c) = (picture.vertex(na)?, picture.vertex(nb)?, picture.vertex(nc)?);
+        self.id = id;
+        let [wa, wb, wc] = [a, b, c].map(Vertex::nearness);
+        self.far = (wa.min(wb).min(wc) >> 8) as u16;
+        self.near = ((wa.max(wb).max(wc) + 0xff) >> 8) as u16;
+        let [(_, top), (nb, middle), (nc, bottom)] = by_height([(na, a), (nb, b), (nc, c)]);
+        self.lower = [nb, nc];
+        let start = i32::from(line);
+        let end = first_at(bottom.point().y);
+        if start >= end {
             return None;
         }
+        self.end = end as u16;
+        let middle_line = first_at(middle.point().y);
+        let above = start < middle_line;
+        self.turn = if above { middle_line } else { end } as u16;
         // Clockwise from the top: the middle corner is on the right.
-        let middle_left = area(top, middle, bottom) < 0;
-        let bent = if line < middle_line { Edge::new(top, middle, line) } else { Edge::new(middle, bottom, line) };
-        let straight = Edge::new(top, bottom, line);
-        let (left, right) = if middle_left { (bent, straight) } else { (straight, bent) };
-        let [a, b, c] = points;
-        Some(Self {
-            left,
-            right,
-            middle: middle_line.clamp(0, 0xffff) as u16,
-            end: end.clamp(0, 0xffff) as u16,
-            id,
-            middle_left,
-            turned: area(a, b, c) > 0,
-            ..Self::NONE
-        })
+        self.middle_left = area(top.point(), middle.point(), bottom.point()) < 0;
+        let [bent, straight] = self.edges();
+        let (from, to) = if above { (top, middle) } else { (middle, bottom) };
+        bent.set(from, to, start);
+        straight.set(top, bottom, start);
+        (self.deep, self.shaded) = (false, false);
+        Some(look)
     }
 
-    /// On to line `line`, the next one; `points` fetches the corners where an edge ends. Whether it is still there.
-    #[inline]
-    pub(crate) fn step(&mut self, line: u16, points: impl FnOnce(TriangleId) -> Option<[Point; 3]>) -> bool {
-        if line >= self.end {
-            return false;
+    /// The edges with the middle corner and without.
+    #[inline(always)]
+    fn edges(&mut self) -> [&mut Edge; 2] {
+        if self.middle_left {
+            [&mut self.left, &mut self.right]
+        } else {
+            [&mut self.right, &mut self.left]
         }
+    }
+
+    /// Whether line `line` is the first one below the middle corner, or below the last.
+    #[inline(always)]
+    pub(crate) const fn turns(&self, line: u32) -> bool {
+        line == self.turn as u32
+    }
+
+    /// Whether line `line` is the first one below the last corner.
+    #[inline(always)]
+    pub(crate) const fn ends(&self, line: u32) -> bool {
+        line == self.end as u32
+    }
+
+    /// Turns to the lower edge before the step to line `line`, the first one below the middle corner.
+    #[inline(never)]
+    pub(crate) fn bend<const LIGHTS: usize>(&mut self, line: u32, vertices: &[Vertex<LIGHTS>]) {
+        let [middle, bottom] = self.lower;
+        let Some(middle) = vertices.get(usize::from(middle)) else { return };
+        let Some(bottom) = vertices.get(usize::from(bottom)) else { return };
+        self.turn = self.end;
+        let [bent, _] = self.edges();
+        bent.set(middle, bottom, line as i32);
+        bent.step_back();
+    }
+
+    /// On to the next line, with what it covers there.
+    #[inline(always)]
+    pub(crate) fn step(&mut self, span: &mut Span) {
         self.left.step();
+        span.start = self.left.x();
         self.right.step();
-        if line == self.middle {
-            let Some(points) = points(self.id) else { return false };
-            let [_, middle, bottom] = by_height(points);
-            let edge = Edge::new(middle, bottom, i32::from(line));
-            *(if self.middle_left { &mut self.left } else { &mut self.right }) = edge;
-        }
-        true
+        span.end = self.right.x();
     }
 
     /// The first pixel that it covers on the line, and the first one after; no pixels if the latter is not larger.
     #[inline(always)]
     pub(crate) const fn extent(&self) -> (i16, i16) {
-        (self.left.x, self.right.x)
+        (self.left.x(), self.right.x())
+    }
+
+    /// The least and the largest nearness of all of it.
+    #[inline(always)]
+    pub(crate) fn reach(&self) -> [i32; 2] {
+        [self.far.into(), self.near.into()]
     }
 
     /// Makes `depth` ready.
     #[cold]
-    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, triangle: &Triangle<LIGHTS>) {
+    #[inline(never)]
+    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, picture: &Picture<'_, LIGHTS>) {
+        let Some(triangle) = picture.triangle(self.id) else { return };
         let points = triangle.points();
-        let [w0, w1, w2] = triangle.corners.map(|corner| (corner.nearness() << FINER) as i32);
+        let [w0, w1, w2] = triangle.corners.map(|corner| corner.nearness() as i32);
         let [p0, ..] = points;
-        self.anchor = Gradient::anchor(p0);
-        self.depth = match Gradient::new(points) {
-            Some(gradient) => gradient.linear_wide(w0, w1 - w0, w2 - w0),
-            // The mean of three numbers below 2³⁰·(1 + 2⁻⁷).
-            None => [((i64::from(w0) + i64::from(w1) + i64::from(w2)) / 3) as i32, 0, 0],
+        let [x, y] = Gradient::anchor(p0).map(i32::from);
+        let [at, dx, dy] = match Gradient::new(points) {
+            Some(gradient) => gradient.linear_wide(w0, w1 - w0, w2 - w0, FINER),
+            // Three numbers below 2³⁰·(1 + 2⁻⁷).
+            None => [((((w0 + w1 + w2) as u32) << FINER) / 3) as i32, 0, 0],
         };
+        self.depth = [at.wrapping_sub(dx.wrapping_mul(x)).wrapping_sub(dy.wrapping_mul(y)), dx, dy];
         self.deep = true;
     }
 
     /// The nearness at a pixel, 30 bits at the near plane; larger is nearer.
-    #[inline]
+    #[inline(always)]
     pub(crate) const fn depth_at(&self, x: i32, line: u16) -> i32 {
         let [at, dx, dy] = self.depth;
-        let [ax, ay] = self.anchor;
-        at.wrapping_add(dx.wrapping_mul(x - ax as i32)).wrapping_add(dy.wrapping_mul(line as i32 - ay as i32))
+        at.wrapping_add(dx.wrapping_mul(x)).wrapping_add(dy.wrapping_mul(line as i32))
     }
 
     /// The increase of the nearness for a pixel to the right.
@@ -136,15 +175,16 @@ impl Active {
     }
 }
 
-/// The corners from top to bottom; those of equal height in their order.
+/// The corners, with their numbers, from top to bottom; those of equal height in their order.
 #[inline]
-fn by_height([mut a, mut b, mut c]: [Point; 3]) -> [Point; 3] {
-    if b.y < a.y {
+fn by_height<const LIGHTS: usize>([mut a, mut b, mut c]: [(u16, &Vertex<LIGHTS>); 3]) -> [(u16, &Vertex<LIGHTS>); 3] {
+    let height = |(_, vertex): (u16, &Vertex<LIGHTS>)| vertex.point().y;
+    if height(b) < height(a) {
         core::mem::swap(&mut a, &mut b);
     }
-    if c.y < b.y {
+    if height(c) < height(b) {
         core::mem::swap(&mut b, &mut c);
-        if b.y < a.y {
+        if height(b) < height(a) {
             core::mem::swap(&mut a, &mut b);
         }
     }

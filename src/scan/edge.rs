@@ -1,104 +1,227 @@
 //! A triangle's edge, walked line by line in integers.
 
-use embedded_graphics::geometry::Point;
-
+use super::vertex::Vertex;
 use crate::math::{
-    product::mul_high,
-    reciprocal::Reciprocal,
-    screen::{center, is_short, SUBPIXELS},
+    reciprocal::rough,
+    screen::{center, SUBPIXELS},
 };
 
 /// The first pixel on or right of an edge, on one line after another; exact for the snapped corners, whatever the slope.
 ///
-/// An integer DDA with *floor* quotient and remainder. (The course notes' DDA, §"Shading Notes", truncates, which makes
-/// 44 % of the x of edges to the left wrong.)
+/// A DDA in 1/2⁴⁸ pixel. An edge of height `dy` meets the centres of lines at multiples of 1/(256·dy) pixel. What rounding
+/// takes from `at` is more than nothing and, all lines together, at most one such part: so it is always the right pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Edge {
-    /// By how much `x` lies right of the edge, in 1/`whole` pixel; less than `whole`.
-    over: u32,
-    /// What a line takes from `over`, in the same unit.
-    less: u32,
-    /// 256 times the height of the edge, in subpixels.
-    whole: u32,
-    /// The first pixel whose centre lies on or right of the edge.
-    pub x: i16,
-    /// Floor of pixels a line.
-    step: i16,
+    /// One pixel right of the edge, counted from the centre of pixel 0, in 1/2⁴⁸ pixel, rounded down.
+    at: i64,
+    /// Its increase a line, rounded down.
+    step: i64,
 }
 
 impl Edge {
     /// An empty edge at pixel 0.
-    pub const NONE: Self = Self { over: 0, less: 0, whole: 0, x: 0, step: 0 };
+    pub const NONE: Self = Self { at: 0, step: 0 };
 
-    /// The edge from `top` down to `bottom`, on line `line`, which must not begin above `top`.
-    #[inline]
-    #[must_use]
-    pub fn new(top: Point, bottom: Point, line: i32) -> Self {
-        let (dx, dy) = (bottom.x - top.x, bottom.y - top.y);
-        let down = center(line) - top.y;
-        // From the centre of the pixel that holds the top corner, in subpixels.
-        let from = top.x - center(top.x >> 8);
-        if dy > 0 && is_short(dx) && is_short(dy) && is_short(down) {
-            let inverse = Reciprocal::of(dy as u32);
-            let (step, less) = divide(dx, dy, inverse);
-            // The first pixel at or right of n/(256·dy) is minus the floor of −n/(256·dy).
-            let n = -(dx * down + from * dy);
-            let (minus, over) = divide(n >> 8, dy, inverse);
-            Self {
-                over: over << 8 | (n as u32 & 0xff),
-                less: less << 8,
-                whole: (dy << 8) as u32,
-                x: ((top.x >> 8) - minus) as i16,
-                step: step as i16,
-            }
-        } else {
-            Self::long(top, i64::from(dx), i64::from(dy).max(1), i64::from(down), i64::from(from))
+    /// Becomes the edge from `top` down to `bottom`, on line `line`, which must not begin above `top`.
+    #[inline(never)]
+    pub fn set<const LIGHTS: usize>(&mut self, top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) {
+        let (top, bottom) = (top.point(), bottom.point());
+        let (dx, dy, down) = (bottom.x - top.x, bottom.y - top.y, center(line) - top.y);
+        // Below 128 pixels all of it fits 32 bits.
+        if ((dx + (1 << 15)) as u32 >> 16) | (dy as u32 >> 15) | (down as u32 >> 15) != 0 {
+            return self.set_long(top.x, dx, dy, down);
         }
+        let (whole, [high, low]) = divide(dx, dy as u32);
+        let down = down as u32;
+        // Subpixels, and 1/2¹⁶ of them: up to 2⁻²⁴ pixel too small. On fewer than 128 lines, `step` takes no more than that.
+        let x = top.x + whole * down as i32 + SUBPIXELS / 2;
+        let part = high * down + ((low * down) >> 16);
+        self.at = ((i64::from(x) << 40) + (i64::from(part) << 24)).wrapping_sub(1);
+        self.step = (i64::from((whole << 16) + high as i32) << 32) + (i64::from(low) << 16);
     }
 
     /// The same for edges of 128 pixels and more, in 64 bits.
     #[cold]
     #[inline(never)]
-    fn long(top: Point, dx: i64, dy: i64, down: i64, from: i64) -> Self {
-        let whole = dy * i64::from(SUBPIXELS);
-        let n = -(dx * down + from * dy);
-        let floor = |n: i64, d: i64| (n.checked_div_euclid(d).unwrap_or(0), n.checked_rem_euclid(d).unwrap_or(0));
-        let ((step, less), (minus, over)) = (floor(dx, dy), floor(n, whole));
-        Self {
-            over: over as u32,
-            less: (less * i64::from(SUBPIXELS)) as u32,
-            whole: whole as u32,
-            x: (i64::from(top.x >> 8) - minus) as i16,
-            step: step as i16,
-        }
+    fn set_long(&mut self, x: i32, dx: i32, dy: i32, down: i32) {
+        let dy = dy.max(1);
+        let (whole, rest) = (dx.div_euclid(dy), dx.rem_euclid(dy));
+        // In 1/2⁴⁰, so that `at` stays exact for all heights below 2²⁰.
+        let part = ((i64::from(rest) << 40) as u64).checked_div(dy as u64).unwrap_or(0) as i64;
+        let (whole, down) = (i64::from(whole), i64::from(down));
+        let x = i64::from(x + SUBPIXELS / 2) + whole * down;
+        self.at = (x << 40).wrapping_add(part.wrapping_mul(down)).wrapping_sub(1);
+        self.step = (whole << 48) + (part << 8);
+    }
+
+    /// The first pixel whose centre lies on or right of the edge.
+    #[inline(always)]
+    #[must_use]
+    pub const fn x(&self) -> i16 {
+        (self.at >> 48) as i16
     }
 
     /// On to the next line.
     #[inline(always)]
     pub fn step(&mut self) {
-        self.x = self.x.wrapping_add(self.step);
-        match self.over.checked_sub(self.less) {
-            Some(over) => self.over = over,
-            None => {
-                self.over = self.over.wrapping_sub(self.less).wrapping_add(self.whole);
-                self.x = self.x.wrapping_add(1);
-            }
-        }
+        self.at = self.at.wrapping_add(self.step);
+    }
+
+    /// Back to the line before.
+    #[inline(always)]
+    pub fn step_back(&mut self) {
+        self.at = self.at.wrapping_sub(self.step);
     }
 }
 
-/// Floor of `n/d` and the rest, by the reciprocal of d and a correction of at most one or two either way.
+/// Those of a number of 15 bits, 0 counting as 1; looked up, as Cortex-M0+ would have to call a function for an instruction that
+/// it lacks.
+#[inline(always)]
+fn leading_zeros(d: u32) -> u32 {
+    static ZEROS: [u8; 256] = {
+        let mut zeros = [0; 256];
+        let mut i = 1_u32;
+        while i < 256 {
+            #[expect(clippy::indexing_slicing, reason = "i < 256, evaluated by the compiler")]
+            {
+                zeros[i as usize] = (i << 7).leading_zeros() as u8;
+            }
+            i += 1;
+        }
+        zeros
+    };
+    match ZEROS.get((d >> 7) as usize) {
+        Some(zeros) if *zeros > 0 => u32::from(*zeros),
+        _ => small(d),
+    }
+}
+
+/// The same for edges less than half a pixel high.
+#[cold]
+#[inline(never)]
+const fn small(d: u32) -> u32 {
+    (d | 1).leading_zeros()
+}
+
+/// Floor of `n/d`, and two more digits of 16 bits, in all less than 2/2³² too small; n in 16 bits, d in 15, 0 giving anything.
 #[inline]
-fn divide(n: i32, d: i32, inverse: Reciprocal) -> (i32, u32) {
-    let mut quotient = mul_high(n, inverse.short()) >> (31 - inverse.zeros).clamp(0, 31);
-    let mut rest = n - quotient * d;
-    while rest < 0 {
-        rest += d;
-        quotient -= 1;
+fn divide(n: i32, d: u32) -> (i32, [u32; 2]) {
+    let zeros = leading_zeros(d);
+    // With its highest bit in place 14.
+    let shift = zeros.wrapping_sub(17);
+    let divisor = d.wrapping_shl(shift);
+    let inverse = rough(divisor);
+    let mut quotient = (n.wrapping_mul((inverse >> 2) as i32) >> 16) >> (31 - zeros);
+    let mut rest = n.wrapping_sub(quotient.wrapping_mul(d as i32)) as u32;
+    if rest >= d {
+        // One too small or one too large.
+        if rest as i32 > 0 {
+            quotient += 1;
+            rest = rest.wrapping_sub(d);
+        } else {
+            quotient -= 1;
+            rest = rest.wrapping_add(d);
+        }
     }
-    while rest >= d {
-        rest -= d;
-        quotient += 1;
+    let rest = rest.wrapping_shl(shift);
+    let mut high = rest.wrapping_mul(inverse) >> 16;
+    let mut rest = (rest << 16).wrapping_sub(high.wrapping_mul(divisor));
+    if rest >= divisor {
+        rest -= divisor;
+        high += 1;
     }
-    (quotient, rest as u32)
+    (quotient, [high, rest.wrapping_mul(inverse) >> 16])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::projection::Projected;
+    use embedded_graphics::geometry::Point;
+
+    fn vertex(x: i32, y: i32) -> Vertex<1> {
+        Vertex::new(Some(Projected { point: Point::new(x, y), nearness: 1 }), [[0; 2]])
+    }
+
+    /// On all lines of an edge, from the first or from a later one, up to `most`.
+    fn check(top: [i32; 2], bottom: [i32; 2], most: i32) {
+        let ([tx, ty], [bx, by]) = (top, bottom);
+        let (first, end) = (crate::math::screen::first_at(ty), crate::math::screen::first_at(by));
+        for from in [first, first + (end - first) / 3] {
+            if from >= end {
+                continue;
+            }
+            let mut edge = Edge::NONE;
+            edge.set(&vertex(tx, ty), &vertex(bx, by), from);
+            for line in from..end.min(from + most) {
+                let (dx, dy) = (i64::from(bx - tx), i64::from(by - ty));
+                let n = dx * i64::from(center(line) - ty) + i64::from(tx - 128) * dy;
+                let exact = -(-n).div_euclid(256 * dy);
+                assert_eq!(i64::from(edge.x()), exact, "{top:?} {bottom:?} from {from} on {line}");
+                edge.step();
+            }
+        }
+    }
+
+    #[test]
+    fn x_is_exact() {
+        let mut state = 1_u32;
+        let mut random = |bits: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as i32 % (1 << bits) - (1 << bits >> 1)
+        };
+        for _ in 0..20_000 {
+            for bits in [8, 11, 13, 15, 16, 17, 20] {
+                let (top, bottom) = ([random(bits), random(bits)], [random(bits), random(bits)]);
+                let [[_, a], [_, b]] = [top, bottom];
+                if a < b {
+                    check(top, bottom, 1024);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn x_is_exact_where_it_is_hardest() {
+        // The largest heights in either number of bits, with the steepest and the flattest slopes.
+        for dy in [(1 << 15) - 1, 1 << 15, (1 << 15) + 1, (1 << 20) - 1] {
+            for d in [1, 2, 3, 127, 128, 32_766, 32_767] {
+                for ty in -130..130 {
+                    let ty = if dy > 1 << 19 { -(1 << 19) } else { ty };
+                    for dx in [d, -d, dy - d, d - dy] {
+                        check([-dx / 2, ty], [dx - dx / 2, ty + dy], 4096);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn any_corners_and_lines_will_do() {
+        let far = (1 << 19) - 1;
+        for ty in [-far, -1, 0, 1, 255, 32_767, far] {
+            for by in [-far, -1, 0, 1, 255, 32_767, far] {
+                for x in [-far, -32_768, 0, 1, 32_767, far] {
+                    for line in [0, 1, 127, 1023, 0xffff] {
+                        let mut edge = Edge::NONE;
+                        edge.set(&vertex(0, ty), &vertex(x, by), line);
+                        edge.step();
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_quotient_is_never_too_large() {
+        for d in (1..1_u32 << 15).filter(|d| d % 97 < 2 || *d > 32_700) {
+            for n in (-(1 << 15)..1 << 15).step_by(7) {
+                let (whole, [high, low]) = divide(n, d);
+                assert_eq!(whole, n.div_euclid(d as i32), "{n}/{d}");
+                let digits = u64::from(high) << 16 | u64::from(low);
+                let rest = (u64::from(n.rem_euclid(d as i32) as u32) << 32).checked_sub(digits * u64::from(d));
+                assert!(rest.is_some_and(|rest| rest < 2 * u64::from(d)), "{n}/{d}");
+            }
+        }
+    }
 }

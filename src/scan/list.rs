@@ -1,49 +1,44 @@
 //! The active list: the triangles that cross the current line, from left to right.
 
-use super::{active::Active, bucket::TriangleId, picture::Picture};
+use core::cell::Cell;
 
-/// Where an active triangle is on the line, and where in the list.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(4))]
-pub(crate) struct Place {
-    /// The first pixel that it covers.
-    pub(crate) begin: i16,
-    /// The first pixel after those that it covers.
-    pub(crate) stop: i16,
-    /// Its slot.
-    pub(crate) slot: u16,
-}
+use heapless::Vec;
 
-/// Up to `N` active triangles in fixed slots, and their order by the first pixel of the line.
+use super::{active::Active, bucket::TriangleId, picture::Picture, table::Span, vertex::Vertex};
+
+/// The slot of a triangle that ended.
+const NOWHERE: u16 = u16::MAX;
+
+/// Triangles put in their places at once.
+const BATCH: usize = 8;
+
+/// Up to `N` active triangles in fixed slots, and what they cover on the line, in the order of the first pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct ActiveList<const N: usize> {
     slots: [Active; N],
-    /// All slots: those in use first, by the first pixel they cover; then the free ones.
-    order: [Place; N],
-    used: usize,
+    order: Vec<Span, N>,
+    /// The first free slot; N if there is none.
+    free: u16,
 }
 
 impl<const N: usize> ActiveList<N> {
     /// A list that is to be [cleared](Self::clear) before its first use: all zeros, so that a `static` takes no flash.
     pub(crate) const fn new() -> Self {
-        Self { slots: [Active::NONE; N], order: [Place { begin: 0, stop: 0, slot: 0 }; N], used: 0 }
+        Self { slots: [Active::NONE; N], order: Vec::new(), free: 0 }
     }
 
     pub(crate) fn clear(&mut self) {
-        self.used = 0;
-        for (place, slot) in self.order.iter_mut().zip(0..) {
-            place.slot = slot;
+        self.order.clear();
+        self.free = 0;
+        for (slot, next) in self.slots.iter_mut().zip(1..) {
+            slot.next = next;
         }
     }
 
-    pub(crate) fn len(&self) -> usize {
-        self.used
-    }
-
-    /// Those in use, by the first pixel they cover.
+    /// What the triangles cover on the line, by the first pixel; some of it empty, some of it outside the picture.
     #[inline(always)]
-    pub(crate) fn places(&self) -> &[Place] {
-        self.order.get(..self.used).unwrap_or(&[])
+    pub(crate) fn extents(&self) -> &[Span] {
+        &self.order
     }
 
     #[inline(always)]
@@ -58,81 +53,108 @@ impl<const N: usize> ActiveList<N> {
 
     /// On to line `line`, the next one: steps all, lets go of those that ended, takes in those that start. Returns the number
     /// of triangles left out for want of room.
+    #[inline(never)]
     pub(crate) fn advance<const L: usize>(&mut self, line: u16, picture: &Picture<'_, L>) -> u16 {
-        let mut kept = 0;
-        for i in 0..self.used {
-            let Some(&Place { slot, .. }) = self.order.get(i) else { break };
-            let Some(active) = self.slots.get_mut(usize::from(slot)) else { break };
-            if active.step(line, |id| picture.points(id)) {
-                if kept != i {
-                    swap(&mut self.order, kept, i);
-                }
-                if let Some(place) = self.order.get_mut(kept) {
-                    (place.begin, place.stop) = active.extent();
-                }
-                kept += 1;
-            }
+        let free = self.free;
+        self.step(line.into(), picture.vertices);
+        if self.free != free {
+            self.order.retain(|span| span.slot != NOWHERE);
         }
-        self.used = kept;
         self.sort();
         self.enter(line, picture)
     }
 
+    /// Steps all to line `line`, and marks those that ended.
+    #[inline(never)]
+    fn step<const L: usize>(&mut self, line: u32, vertices: &[Vertex<L>]) {
+        for span in &mut self.order {
+            let Some(active) = self.slots.get_mut(usize::from(span.slot)) else { break };
+            if active.turns(line) {
+                if active.ends(line) {
+                    active.next = self.free;
+                    self.free = span.slot;
+                    span.slot = NOWHERE;
+                    continue;
+                }
+                active.bend(line, vertices);
+            }
+            active.step(span);
+        }
+    }
+
+    /// Insertion sort: from line to line hardly anything moves.
+    #[inline(never)]
+    fn sort(&mut self) {
+        let places = Cell::from_mut(self.order.as_mut_slice()).as_slice_of_cells();
+        let mut before = i32::MIN;
+        let mut rest = places;
+        while let [place, after @ ..] = rest {
+            rest = after;
+            let start = i32::from(place.get().start);
+            if start < before {
+                sink(places.get(..places.len() - rest.len()).unwrap_or_default());
+            } else {
+                before = start;
+            }
+        }
+    }
+
     /// Takes in the triangles that start on line `line`. Returns the number of those left out.
+    ///
+    /// A few at a time, put in order first, so that each of the others moves once.
     pub(crate) fn enter<const L: usize>(&mut self, line: u16, picture: &Picture<'_, L>) -> u16 {
         let mut dropped = 0;
+        let mut new = Vec::new();
         for id in picture.starting(line) {
-            let Some(mut active) = picture.points(id).and_then(|points| Active::new(points, id, line)) else { continue };
-            (active.whole, active.look) = (picture.whole(id), picture.look(id));
-            if self.used == N {
+            if new.is_full() {
+                self.merge(&mut new);
+            }
+            if self.slots.get(usize::from(self.free)).is_none() {
+                self.merge(&mut new);
                 dropped += 1;
                 match self.farther_than(id, picture) {
                     Some(place) => self.remove(place),
                     None => continue,
                 }
             }
-            self.insert(active);
+            let slot = self.free;
+            let Some(active) = self.slots.get_mut(usize::from(slot)) else { continue };
+            if let Some(look) = active.begin(id, line, picture) {
+                self.free = active.next;
+                let (start, end) = active.extent();
+                let span = Span { start, end, slot, look };
+                let misplaced = new.last().is_some_and(|last: &Span| start < last.start);
+                let _ = new.push(span);
+                let _ = self.order.push(span);
+                if misplaced {
+                    sink(Cell::from_mut(new.as_mut_slice()).as_slice_of_cells());
+                }
+            }
+        }
+        if !new.is_empty() {
+            self.merge(&mut new);
         }
         dropped
     }
 
-    /// Puts a triangle in its place; there is a free slot.
-    fn insert(&mut self, active: Active) {
-        let Some(order) = self.order.get_mut(..=self.used) else { return };
-        let Some((free, others)) = order.split_last_mut() else { return };
-        let (begin, stop) = active.extent();
-        let place = Place { begin, stop, slot: free.slot };
-        let Some(slot) = self.slots.get_mut(usize::from(place.slot)) else { return };
-        *slot = active;
-        self.used += 1;
-        let at = others.partition_point(|other| other.begin <= place.begin);
-        // The others move up by one, over the free slot's place, the last.
-        let Some(after) = order.get_mut(at..) else { return };
-        let Some(count) = after.len().checked_sub(1) else { return };
-        after.copy_within(..count, 1);
-        if let Some(first) = after.first_mut() {
-            *first = place;
+    /// Puts the last triangles, those in `new`, where they are in order, in their places among the others; forgets `new`.
+    #[inline(never)]
+    fn merge(&mut self, new: &mut Vec<Span, BATCH>) {
+        let mut places = Cell::from_mut(self.order.as_mut_slice()).as_slice_of_cells();
+        let mut others = places.get(..places.len().saturating_sub(new.len())).unwrap_or_default();
+        for span in new.iter().rev() {
+            [places, others] = settle(places, others, *span);
         }
+        new.clear();
     }
 
-    /// Takes a triangle out of the order; its slot becomes the first free one.
+    /// Takes a triangle out.
     fn remove(&mut self, place: usize) {
-        let Some(after) = self.order.get_mut(place..self.used) else { return };
-        let Some(mut moving) = after.first().copied() else { return };
-        after.iter_mut().rev().for_each(|here| core::mem::swap(here, &mut moving));
-        self.used -= 1;
-    }
-
-    /// Insertion sort: from line to line hardly anything moves.
-    fn sort(&mut self) {
-        let order = self.order.get_mut(..self.used).unwrap_or_default();
-        let mut before = i16::MIN;
-        for i in 0..order.len() {
-            let Some(place) = order.get(i) else { break };
-            if place.begin >= before {
-                before = place.begin;
-            } else {
-                sink(order, i);
+        if place < self.order.len() {
+            let Span { slot, .. } = self.order.remove(place);
+            if let Some(active) = self.slots.get_mut(usize::from(slot)) {
+                active.next = self.free;
+                self.free = slot;
             }
         }
     }
@@ -149,7 +171,7 @@ impl<const N: usize> ActiveList<N> {
         };
         let mut least = rank(id);
         let mut victim = None;
-        for (place, Place { slot, .. }) in self.places().iter().enumerate() {
+        for (place, Span { slot, .. }) in self.order.iter().enumerate() {
             let Some(active) = self.get(*slot) else { continue };
             let other = rank(active.id);
             if other < least {
@@ -160,22 +182,30 @@ impl<const N: usize> ActiveList<N> {
     }
 }
 
-/// Moves element i to its place among those before it, which are in order.
-fn sink(order: &mut [Place], i: usize) {
-    let mut j = i;
-    while let [before, here] = order.get_mut(j.wrapping_sub(1)..=j).unwrap_or_default() {
-        if before.begin <= here.begin {
-            break;
-        }
-        core::mem::swap(before, here);
-        j -= 1;
+/// Moves the last one to its place among the others, which are in order.
+#[inline(never)]
+fn sink(places: &[Cell<Span>]) {
+    if let [others @ .., last] = places {
+        settle(places, others, last.get());
     }
 }
 
-/// Swaps two elements; nothing if one is not there.
+/// Moves those of the others that lie on the right of this one to the last places, and puts it before them. Returns the places
+/// and the others left of it.
 #[inline(always)]
-fn swap(order: &mut [Place], i: usize, j: usize) {
-    if i < order.len() && j < order.len() {
-        order.swap(i, j);
+fn settle<'a>(mut places: &'a [Cell<Span>], mut others: &'a [Cell<Span>], span: Span) -> [&'a [Cell<Span>]; 2] {
+    while let [left @ .., place] = places {
+        places = left;
+        match others {
+            [left @ .., other] if other.get().start > span.start => {
+                place.set(other.get());
+                others = left;
+            }
+            _ => {
+                place.set(span);
+                break;
+            }
+        }
     }
+    [places, others]
 }
