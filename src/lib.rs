@@ -90,6 +90,6 @@ pub use shade::{
     duff_barycentric::DuffBarycentric,
     flat::Flat,
     gouraud::Gouraud,
-    Intensity, Shade,
+    Intensity, Paint, Shade,
 };
 pub use sink::{ink::Ink, overlay::Overlay};

@@ -3,8 +3,9 @@
 use embedded_graphics::primitives::Rectangle;
 
 use crate::{
-    model::material::{Color, Material},
+    model::material::Color,
     scan::{
+        active::Active,
         list::ActiveList,
         picture::{Background, Picture, Source, Triangle},
         resolve::Sweep,
@@ -16,7 +17,7 @@ use crate::{
 
 /// The state of a walk down a picture: up to `ACTIVE` triangles that cross one line, each with a facet of the shading method.
 ///
-/// Owns its memory: about 116 bytes for each active triangle with the default method and one light.
+/// Owns its memory: about 140 bytes for each active triangle with the default method and one light.
 #[derive(Clone, Debug)]
 pub struct Scanner<const ACTIVE: usize, S: Shade<LIGHTS> = DuffBarycentric, const LIGHTS: usize = 1> {
     list: ActiveList<ACTIVE>,
@@ -87,13 +88,16 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
             return Line { dropped: self.dropped, ..Line::default() };
         }
         let width = self.picture.width().min(row.len() as i32);
-        let mut line = Line { active: self.scanner.list.len() as u16, dropped: self.dropped, ..Line::default() };
+        let mut line = Line { active: self.scanner.list.extents().len() as u16, dropped: self.dropped, ..Line::default() };
+        let background = background(&self.picture, y);
         let mut sweep = Sweep::new(y, width);
         let mut from = 0;
         while sweep.fill(&mut self.scanner.list, &self.picture, &mut self.scanner.table) {
-            from = self.shade_table(y, from, row, &mut line);
+            from = self.shade_table(y, from, background, row, &mut line);
         }
-        fill_background(&self.picture, y, row, from, width);
+        if from < width {
+            fill(row, from, width, background);
+        }
         line
     }
 
@@ -104,10 +108,10 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
         }
         let mut sweep = Sweep::new(y, self.picture.width());
         while sweep.fill(&mut self.scanner.list, &self.picture, &mut self.scanner.table) {
-            for span in &self.scanner.table {
+            for span in self.scanner.table.spans() {
                 let source = self.scanner.list.get(span.slot).and_then(|active| self.picture.source(active.id));
                 if let Some(source) = source {
-                    see(span.start..span.end, source);
+                    see(span.start as u16..span.end as u16, source);
                 }
             }
         }
@@ -135,49 +139,71 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
     }
 
     /// Shades the table's spans, and the background before each; returns where the last one ends.
-    fn shade_table<P: Ink>(&mut self, y: u16, mut from: i32, row: &mut [P], line: &mut Line) -> i32 {
+    #[inline(never)]
+    fn shade_table<P: Ink>(&mut self, y: u16, mut from: i32, background: Option<Color>, row: &mut [P], line: &mut Line) -> i32 {
         let Scanner { list, facets, table } = &mut *self.scanner;
         let picture = &self.picture;
-        let mut last: Option<(&Material, P::Paint<'_>)> = None;
-        for &Span { start, end, slot } in table.iter() {
-            fill_background(picture, y, row, from, i32::from(start));
-            from = i32::from(end);
-            line.spans += 1;
+        let mut dressed: Option<Dressed<'_, P, LIGHTS>> = None;
+        line.spans += table.spans().len() as u16;
+        for &Span { start, end, slot, look } in table.spans() {
+            let (start, end) = (i32::from(start), i32::from(end));
+            if from < start {
+                fill(row, from, start, background);
+            }
+            from = end;
+            if dressed.as_ref().is_none_or(|dressed| dressed.look != look) {
+                dressed = Dressed::new(picture, look);
+            }
+            let Some(Dressed { surface, paint, .. }) = &dressed else { continue };
             let (Some(active), Some(facet)) = (list.get_mut(slot), facets.get_mut(usize::from(slot))) else { continue };
-            let Some(pixels) = row.get_mut(usize::from(start)..usize::from(end)) else { continue };
-            let Some(material) = picture.material(active.look) else { continue };
-            let surface = Surface { material, intensities: picture.intensities };
             if !active.shaded {
-                let Some(triangle) = picture.triangle(active.id) else { continue };
-                let triangle = if active.turned { triangle.turned() } else { triangle };
-                *facet = S::facet(&triangle, &surface);
                 active.shaded = true;
                 line.facets += 1;
-                line.bent += u16::from(is_bent(&triangle));
+                line.bent += u16::from(set_up::<S, LIGHTS>(picture, active, surface, facet));
             }
-            if !last.as_ref().is_some_and(|(same, _)| core::ptr::eq(*same, material)) {
-                last = Some((material, P::paint(material)));
-            }
-            let Some((_, paint)) = &last else { continue };
-            shade::<P, S, LIGHTS>(facet, &surface, paint, i32::from(start), i32::from(y), pixels);
+            let Some(pixels) = row.get_mut(start as usize..end as usize) else { continue };
+            shade::<P, S, LIGHTS>(facet, surface, paint, start, y.into(), pixels);
         }
         from
     }
 }
 
+/// A material made ready.
+struct Dressed<'p, P: Ink, const LIGHTS: usize> {
+    /// Its number.
+    look: u16,
+    surface: Surface<'p, LIGHTS>,
+    paint: P::Paint<'p>,
+}
+
+impl<'p, P: Ink, const LIGHTS: usize> Dressed<'p, P, LIGHTS> {
+    #[inline(never)]
+    fn new(picture: &Picture<'p, LIGHTS>, look: u16) -> Option<Self> {
+        let material = picture.material(look)?;
+        let surface = Surface { material, intensities: picture.intensities };
+        Some(Self { look, surface, paint: P::paint(material) })
+    }
+}
+
+/// The background's colour on line y; none if pixels stay what they were.
+fn background<const LIGHTS: usize>(picture: &Picture<'_, LIGHTS>, y: u16) -> Option<Color> {
+    match picture.background {
+        Background::Plain(color) => Some(color),
+        Background::Gradient { top, bottom } => Some(between(top, bottom, y, picture.height())),
+        Background::Keep => None,
+    }
+}
+
 /// Fills pixels with the background.
-fn fill_background<P: Ink, const LIGHTS: usize>(picture: &Picture<'_, LIGHTS>, y: u16, row: &mut [P], from: i32, to: i32) {
-    if from >= to {
-        return;
+#[inline(never)]
+fn fill<P: Ink>(row: &mut [P], from: i32, to: i32, background: Option<Color>) {
+    let (Some(color), Some(pixels)) = (background, row.get_mut(from as usize..to as usize)) else { return };
+    let pixel = P::plain(color);
+    let mut eights = pixels.chunks_exact_mut(8);
+    for eight in &mut eights {
+        eight.fill(pixel);
     }
-    let color = match picture.background {
-        Background::Plain(color) => color,
-        Background::Gradient { top, bottom } => between(top, bottom, y, picture.height()),
-        Background::Keep => return,
-    };
-    if let Some(pixels) = row.get_mut(from as usize..to as usize) {
-        pixels.fill(P::plain(color));
-    }
+    eights.into_remainder().fill(pixel);
 }
 
 /// Shades one span.
@@ -190,14 +216,37 @@ fn shade<P: Ink, S: Shade<LIGHTS>, const LIGHTS: usize>(
     y: i32,
     pixels: &mut [P],
 ) {
-    S::run(S::start(facet, x, y), surface, pixels, |intensity| P::mix(paint, intensity));
+    S::run(S::start(facet, x, y), surface, pixels, paint);
+}
+
+/// Sets up the facet of a triangle; whether its normals bend beyond what shading follows.
+#[inline(never)]
+fn set_up<S: Shade<LIGHTS>, const LIGHTS: usize>(
+    picture: &Picture<'_, LIGHTS>,
+    active: &Active,
+    surface: &Surface<'_, LIGHTS>,
+    facet: &mut S::Facet,
+) -> bool {
+    let Some(triangle) = picture.triangle(active.id) else { return false };
+    let corners;
+    let triangle = if surface.material.double_sided && triangle.is_turned() {
+        corners = triangle.turned();
+        Triangle { corners: corners.each_ref(), ..triangle }
+    } else {
+        triangle
+    };
+    let bent = is_bent(triangle.edges);
+    *facet = S::facet(&triangle, surface);
+    bent
 }
 
 /// Whether `u = 1 − |N|²` passes 63/64 in the middle of an edge (e/2) or at the centroid (2/9 of the sum), e being Q15.
-fn is_bent<const LIGHTS: usize>(triangle: &Triangle<LIGHTS>) -> bool {
+const fn is_bent(edges: &[u16; 3]) -> bool {
     const MOST: u32 = (1 << 15) * 63 / 64;
-    let edges = triangle.edges.map(u32::from);
-    edges.iter().any(|e| *e > 2 * MOST) || 2 * edges.iter().sum::<u32>() > 9 * MOST
+    let [e01, e12, e20] = *edges;
+    let [e01, e12, e20] = [e01 as u32, e12 as u32, e20 as u32];
+    // Below one, all of them pass neither.
+    (e01 | e12 | e20) >= 1 << 15 && (e01 > 2 * MOST || e12 > 2 * MOST || e20 > 2 * MOST || 2 * (e01 + e12 + e20) > 9 * MOST)
 }
 
 /// The colour of a gradient on line y.

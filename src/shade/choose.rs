@@ -2,13 +2,13 @@
 
 use core::marker::PhantomData;
 
-use super::{Intensity, Shade, Surface};
+use super::{Paint, Shade, Surface};
 use crate::scan::picture::Triangle;
 
 /// Which of two methods shades a triangle.
 pub trait Rule<const LIGHTS: usize> {
     /// Whether it is the second.
-    fn second(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool;
+    fn second(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool;
 }
 
 /// The rule that leaves it to the material: the second method for those [marked plain](crate::Material::plain).
@@ -16,7 +16,7 @@ pub trait Rule<const LIGHTS: usize> {
 pub struct ByMaterial;
 
 impl<const LIGHTS: usize> Rule<LIGHTS> for ByMaterial {
-    fn second(_: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool {
+    fn second(_: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool {
         surface.material.plain
     }
 }
@@ -39,7 +39,7 @@ impl<const LIGHTS: usize, A: Shade<LIGHTS>, B: Shade<LIGHTS>, R: Rule<LIGHTS>> S
     type Registers = Either<A::Registers, B::Registers>;
     const EMPTY: Self::Facet = Either::First(A::EMPTY);
 
-    fn facet(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
+    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
         if R::second(triangle, surface) {
             Either::Second(B::facet(triangle, surface))
         } else {
@@ -56,10 +56,10 @@ impl<const LIGHTS: usize, A: Shade<LIGHTS>, B: Shade<LIGHTS>, R: Rule<LIGHTS>> S
     }
 
     #[inline]
-    fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P) {
+    fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         match registers {
-            Either::First(registers) => A::run(registers, surface, pixels, ink),
-            Either::Second(registers) => B::run(registers, surface, pixels, ink),
+            Either::First(registers) => A::run(registers, surface, pixels, paint),
+            Either::Second(registers) => B::run(registers, surface, pixels, paint),
         }
     }
 }

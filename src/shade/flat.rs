@@ -1,6 +1,6 @@
 //! One intensity for each facet.
 
-use super::{Intensity, Shade, Surface};
+use super::{Intensity, Paint, Shade, Surface};
 use crate::{math::root::inverse_root, scan::picture::Triangle};
 
 /// Flat shading: the illumination at the triangle's centroid, under the normalised mean of the corners' normals.
@@ -14,7 +14,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for Flat {
     type Registers = Intensity;
     const EMPTY: Intensity = Intensity { diffuse: 0, specular: 0 };
 
-    fn facet(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Intensity {
+    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Intensity {
         let root = inverse_root(bend_at_centroid(triangle));
         let mut intensity = Intensity::default();
         for (light, strength) in surface.intensities.iter().enumerate() {
@@ -34,20 +34,20 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for Flat {
     }
 
     #[inline]
-    fn run<P>(intensity: Intensity, _: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P) {
+    fn run<P>(intensity: Intensity, _: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         for pixel in pixels {
-            *pixel = ink(intensity);
+            *pixel = paint.mix(intensity);
         }
     }
 }
 
 /// Sum over the corners of one of a light's products, Q14.
-fn dots<const LIGHTS: usize>(triangle: &Triangle<LIGHTS>, light: usize, which: fn([i16; 2]) -> i16) -> i32 {
+fn dots<const LIGHTS: usize>(triangle: &Triangle<'_, LIGHTS>, light: usize, which: fn([i16; 2]) -> i16) -> i32 {
     triangle.corners.iter().map(|corner| corner.dots.get(light).map_or(0, |dots| i32::from(which(*dots)))).sum()
 }
 
 /// `u = 1 − |N|²` at the centroid, Q28: 2/9 of the sum of the edge constants.
-pub(super) fn bend_at_centroid<const LIGHTS: usize>(triangle: &Triangle<LIGHTS>) -> i32 {
+pub(super) fn bend_at_centroid<const LIGHTS: usize>(triangle: &Triangle<'_, LIGHTS>) -> i32 {
     let sum: u32 = triangle.edges.iter().map(|e| u32::from(*e)).sum();
     ((sum << 14) / 9) as i32
 }

@@ -1,6 +1,6 @@
 //! Intensities at the corners, linear in between.
 
-use super::{lit, Intensity, Shade, Surface};
+use super::{lit, Intensity, Paint, Shade, Surface};
 use crate::{math::gradient::Gradient, scan::picture::Triangle};
 
 /// Gouraud shading: the illumination at the corners, interpolated over the screen; diffuse and specular apart, so that they
@@ -31,7 +31,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for Gouraud {
     type Registers = Registers;
     const EMPTY: Facet = Facet { anchor: [0; 2], planes: [[0; 3]; 2] };
 
-    fn facet(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Facet {
+    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Facet {
         let points = triangle.points();
         let [c0, c1, c2] = triangle.corners.map(|corner| at_corner(&corner.dots, surface));
         let gradient = Gradient::new(points);
@@ -55,10 +55,10 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for Gouraud {
     }
 
     #[inline]
-    fn run<P>(mut r: Registers, _: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P) {
+    fn run<P>(mut r: Registers, _: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         for pixel in pixels {
             // A clamp at the top is not needed: the corners are below it, and rounding cannot pass them by a whole step.
-            *pixel = ink(Intensity { diffuse: lit(r.diffuse) >> 2, specular: lit(r.specular) >> 2 });
+            *pixel = paint.mix(Intensity { diffuse: lit(r.diffuse) >> 2, specular: lit(r.specular) >> 2 });
             r.diffuse = r.diffuse.wrapping_add(r.diffuse_step);
             r.specular = r.specular.wrapping_add(r.specular_step);
         }

@@ -42,6 +42,18 @@ pub struct Surface<'a, const LIGHTS: usize> {
     pub intensities: &'a [u16; LIGHTS],
 }
 
+/// A material, ready to be turned into one kind of pixel.
+pub trait Paint<P> {
+    /// The pixel for that much light.
+    fn mix(&self, intensity: Intensity) -> P;
+
+    /// The pixel for diffuse light alone, Q14.
+    #[inline(always)]
+    fn dull(&self, diffuse: u32) -> P {
+        self.mix(Intensity { diffuse, specular: 0 })
+    }
+}
+
 /// A shading method.
 ///
 /// A facet is set up once, when its triangle is first seen. Starting anywhere gives the very registers that stepping there
@@ -55,13 +67,13 @@ pub trait Shade<const LIGHTS: usize> {
     const EMPTY: Self::Facet;
 
     /// Sets up a triangle.
-    fn facet(triangle: &Triangle<LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet;
+    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet;
 
     /// The registers at pixel x of line y.
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers;
 
-    /// Shades the pixels from there on to the right; `ink` makes a pixel of an intensity.
-    fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], ink: impl Fn(Intensity) -> P);
+    /// Shades the pixels from there on to the right.
+    fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>);
 }
 
 /// A dot product in Q24, clamped at 0, as Q16.

@@ -4,19 +4,16 @@ use embedded_graphics::pixelcolor::{raw::RawU16, Gray4, Gray8, IntoStorage, Rgb5
 
 use crate::{
     model::material::{Color, Material},
-    shade::Intensity,
+    shade::{Intensity, Paint},
 };
 
 /// A pixel that light can be turned into. Each channel is rounded to the nearest level once, after all sums, and saturates.
 pub trait Ink: Copy {
     /// A material's colours, made ready for this kind of pixel.
-    type Paint<'m>;
+    type Paint<'m>: Paint<Self>;
 
     /// Makes a material ready.
     fn paint(material: &Material) -> Self::Paint<'_>;
-
-    /// The pixel for that much light.
-    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self;
 
     /// The pixel of a colour as it is.
     fn plain(color: Color) -> Self;
@@ -86,7 +83,7 @@ impl<const R: u32, const G: u32, const B: u32> Rgb<R, G, B> {
     }
 
     #[inline(always)]
-    fn mix(&self, intensity: Intensity) -> [u32; 3] {
+    fn levels_of(&self, intensity: Intensity) -> [u32; 3] {
         let sums = [self.0.sum(intensity), self.1.sum(intensity), self.2.sum(intensity)];
         let [r, g, b] = sums;
         if (r | g | b) >> OVER == 0 {
@@ -109,51 +106,47 @@ impl Ink for Rgb888 {
         Rgb::new(material)
     }
 
-    #[inline]
-    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self {
-        let [r, g, b] = paint.mix(intensity);
-        Self::new(r as u8, g as u8, b as u8)
-    }
-
     fn plain(color: Color) -> Self {
         let [r, g, b] = Rgb::<8, 8, 8>::levels(color);
         Self::new(r, g, b)
     }
 }
 
+impl Paint<Rgb888> for Rgb<8, 8, 8> {
+    #[inline]
+    fn mix(&self, intensity: Intensity) -> Rgb888 {
+        let [r, g, b] = self.levels_of(intensity);
+        Rgb888::new(r as u8, g as u8, b as u8)
+    }
+}
+
 /// The bits above red, green and blue in a sum of light, see [`Material::SPREAD`].
-const ABOVE: u32 = 1 << 30 | 1 << 20 | 1 << 9;
+const ABOVE: u32 = 1 << 31 | 1 << 20 | 1 << 9;
+/// Their levels, without the four bits below.
+const LEVELS: u32 = 0x7e0 << 16 | 0xf81f;
 
 /// Rgb565 for that much light.
 #[inline(always)]
 fn rgb565(material: &Material, intensity: Intensity) -> u16 {
-    let step = (intensity.diffuse >> 6) as usize;
-    if intensity.specular == 0 {
-        if let Some(pixel) = material.ramp.get(step) {
-            return *pixel;
-        }
+    // Both are below 2.
+    if intensity.specular >> 7 == 0 {
+        return at(&material.ramp, intensity.diffuse);
     }
-    let (Some(dull), Some(gloss)) = (material.dull.get(step), material.gloss.get((intensity.specular >> 7) as usize)) else {
-        return bright(material, intensity);
-    };
-    let mut sum = dull + gloss;
-    if sum & ABOVE != 0 {
-        // All bits below the one above a channel, where that one is set.
-        let above = sum & ABOVE;
-        sum |= above - (above >> 9);
-    }
-    (sum >> 14 & 0xf800 | sum >> 9 & 0x7e0 | sum >> 4 & 0x1f) as u16
+    let mut sum = at(&material.dull, intensity.diffuse).wrapping_add(at(&material.gloss, intensity.specular));
+    // All bits below the one above a channel, where that one is set.
+    let above = sum & ABOVE;
+    sum |= above - (above >> 9);
+    let levels = sum >> 4 & LEVELS;
+    (levels | levels >> 16) as u16
 }
 
-/// The same for light beyond the tables: several lights together above one.
-#[cold]
-#[inline(never)]
-fn bright(material: &Material, intensity: Intensity) -> u16 {
-    let [r, g, b] = Rgb::<5, 6, 5>::new(material).mix(intensity);
-    (r << 11 | g << 5 | b) as u16
+/// A table's entry for an intensity below 2.
+#[inline(always)]
+fn at<T: Copy + Default>(table: &[T; 256], intensity: u32) -> T {
+    table.get(usize::from((intensity >> 7) as u8)).copied().unwrap_or_default()
 }
 
-/// Diffuse light in 256 steps where no highlight shows: far below what the format resolves.
+/// Light in steps of 1/128: below what the format resolves.
 impl Ink for Rgb565 {
     type Paint<'m> = &'m Material;
 
@@ -161,14 +154,21 @@ impl Ink for Rgb565 {
         material
     }
 
-    #[inline(always)]
-    fn mix(material: &&Material, intensity: Intensity) -> Self {
-        Self::from(RawU16::new(rgb565(material, intensity)))
-    }
-
     fn plain(color: Color) -> Self {
         let [r, g, b] = Rgb::<5, 6, 5>::levels(color);
         Self::new(r, g, b)
+    }
+}
+
+impl Paint<Rgb565> for &Material {
+    #[inline(always)]
+    fn mix(&self, intensity: Intensity) -> Rgb565 {
+        Rgb565::from(RawU16::new(rgb565(self, intensity)))
+    }
+
+    #[inline(always)]
+    fn dull(&self, diffuse: u32) -> Rgb565 {
+        Rgb565::from(RawU16::new(at(&self.ramp, diffuse)))
     }
 }
 
@@ -180,13 +180,20 @@ impl Ink for [u8; 2] {
         material
     }
 
-    #[inline(always)]
-    fn mix(material: &&Material, intensity: Intensity) -> Self {
-        rgb565(material, intensity).to_be_bytes()
-    }
-
     fn plain(color: Color) -> Self {
         Rgb565::plain(color).into_storage().to_be_bytes()
+    }
+}
+
+impl Paint<[u8; 2]> for &Material {
+    #[inline(always)]
+    fn mix(&self, intensity: Intensity) -> [u8; 2] {
+        rgb565(self, intensity).to_be_bytes()
+    }
+
+    #[inline(always)]
+    fn dull(&self, diffuse: u32) -> [u8; 2] {
+        at(&self.ramp, diffuse).to_be_bytes()
     }
 }
 
@@ -212,13 +219,15 @@ impl Ink for Gray8 {
         Gray::new(material)
     }
 
-    #[inline]
-    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self {
-        Self::new(paint.0.level_of(intensity))
-    }
-
     fn plain(color: Color) -> Self {
         Self::new(Channel::<8>::level(luma(color)))
+    }
+}
+
+impl Paint<Gray8> for Gray<8> {
+    #[inline]
+    fn mix(&self, intensity: Intensity) -> Gray8 {
+        Gray8::new(self.0.level_of(intensity))
     }
 }
 
@@ -229,12 +238,14 @@ impl Ink for Gray4 {
         Gray::new(material)
     }
 
-    #[inline]
-    fn mix(paint: &Self::Paint<'_>, intensity: Intensity) -> Self {
-        Self::new(paint.0.level_of(intensity))
-    }
-
     fn plain(color: Color) -> Self {
         Self::new(Channel::<4>::level(luma(color)))
+    }
+}
+
+impl Paint<Gray4> for Gray<4> {
+    #[inline]
+    fn mix(&self, intensity: Intensity) -> Gray4 {
+        Gray4::new(self.0.level_of(intensity))
     }
 }
