@@ -19,7 +19,7 @@ fn the_default_method_on_the_teapot() {
     let gray = rows(&all, "gray8");
     let worst = accuracy::worst(&gray).unwrap();
     assert!(worst.psnr_db >= 60.0, "{worst:?}");
-    assert!(worst.mean <= 0.05, "{worst:?}");
+    assert!(worst.mean <= 0.1, "{worst:?}");
     assert!(worst.over4_share <= 0.001, "{worst:?}");
     assert!(worst.same_owner_share >= 0.995, "{worst:?}");
     assert!(worst.wrong_owner <= 2 * gray.len(), "{worst:?}");

@@ -4,7 +4,8 @@ use std::cell::Cell;
 use std::ops::Range;
 
 use beamshade::{
-    Background, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Ink, Intensity, Line, Lines, Material, Scanner, Shade,
+    Background, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Ink, Intensity, Line, Lines, Material, Paint, Scanner,
+    Shade,
 };
 use embedded_graphics::pixelcolor::Rgb565;
 use host_tests::library;
@@ -33,14 +34,16 @@ impl Ink for Made {
 
     fn paint(_: &Material) {}
 
-    fn mix((): &(), _: Intensity) -> Self {
-        SHADED.set(SHADED.get() + 1);
-        Self::Shaded(SHADED.get())
-    }
-
     fn plain(_: Color) -> Self {
         FILLS.set(FILLS.get() + 1);
         Self::Plain(SHADED.get())
+    }
+}
+
+impl Paint<Made> for () {
+    fn mix(&self, _: Intensity) -> Made {
+        SHADED.set(SHADED.get() + 1);
+        Made::Shaded(SHADED.get())
     }
 }
 
