@@ -67,7 +67,7 @@ const BLUE: Material =
 fn the_teapot_by_each_method() {
     let mesh = scenes::teapot_880().unwrap();
     let scene = teapot(&mesh, scenes::ORANGE);
-    check("teapot-duff-barycentric", &draw::<Rgb888, DuffBarycentric>(&scene), &scene, 57.0);
+    check("teapot-duff-barycentric", &draw::<Rgb888, DuffBarycentric>(&scene), &scene, 60.0);
     check("teapot-gouraud", &draw::<Rgb888, Gouraud>(&scene), &scene, 29.0);
     check("teapot-flat", &draw::<Rgb888, Flat>(&scene), &scene, 27.0);
 }
@@ -109,7 +109,7 @@ fn an_open_mesh_through_the_near_plane() {
         pose: Pose { rotation, scale: 0.9, translation: DVec3::new(0.0, 0.15, 0.0) },
     }];
     let scene = Scene { camera: camera(1.75), objects, background: [0.05, 0.1, 0.15], ..teapot(&bowl, scenes::ORANGE) };
-    check("open-bowl", &draw::<Rgb888, DuffBarycentric>(&scene), &scene, 57.0);
+    check("open-bowl", &draw::<Rgb888, DuffBarycentric>(&scene), &scene, 60.0);
 }
 
 /// The sky behind the teapot and a line of text over it, as an application would draw them.
