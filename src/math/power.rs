@@ -74,12 +74,6 @@ impl Power {
         self.exponent
     }
 
-    /// Whether the power shows at a cosine in Q31: whether [`at`](Self::at) may give more than 0.
-    #[must_use]
-    pub const fn shows(&self, cos: u32) -> bool {
-        cos > self.start
-    }
-
     /// The cosine from which on the power shows, Q31.
     #[must_use]
     pub const fn start(&self) -> u32 {

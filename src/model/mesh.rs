@@ -44,6 +44,11 @@ pub enum MeshError {
     Extent,
     /// More than 65535 vertices or 65535 triangles.
     TooLarge,
+    /// This vertex lies outside the sphere around all positions.
+    Sphere {
+        /// Number of the vertex.
+        vertex: u16,
+    },
     /// Positions and normals differ in number.
     Normals,
     /// Triangles and edge constants differ in number.
@@ -80,6 +85,7 @@ impl core::fmt::Display for MeshError {
         match *self {
             Self::Extent => f.write_str("the extent is not positive"),
             Self::TooLarge => f.write_str("more than 65535 vertices or triangles"),
+            Self::Sphere { vertex } => write!(f, "vertex {vertex} lies outside the sphere around all positions"),
             Self::Normals => f.write_str("positions and normals differ in number"),
             Self::Edges => f.write_str("triangles and edge constants differ in number"),
             Self::Corner { triangle } => write!(f, "triangle {triangle} has a corner that is no vertex"),
@@ -113,6 +119,15 @@ impl<'a> Mesh<'a> {
         }
         if data.positions.len() > 0xffff || data.triangles.len() > 0xffff {
             return Err(MeshError::TooLarge);
+        }
+        let mut positions = data.positions;
+        let mut vertex = 0;
+        while let [position, tail @ ..] = positions {
+            if square_distance(*position, data.center) > data.radius as i64 * data.radius as i64 {
+                return Err(MeshError::Sphere { vertex });
+            }
+            positions = tail;
+            vertex = vertex.wrapping_add(1);
         }
         if data.positions.len() != data.normals.len() {
             return Err(MeshError::Normals);
@@ -190,6 +205,12 @@ impl<'a> Mesh<'a> {
     }
 }
 
+/// The square of the distance of two points.
+const fn square_distance([ax, ay, az]: [i16; 3], [bx, by, bz]: [i16; 3]) -> i64 {
+    let [x, y, z] = [ax as i64 - bx as i64, ay as i64 - by as i64, az as i64 - bz as i64];
+    x * x + y * y + z * z
+}
+
 /// The binary form, cut up but not checked.
 struct Binary<'a> {
     data: MeshData<'a>,
@@ -241,4 +262,26 @@ impl<'a> Binary<'a> {
 
 fn cast<T: bytemuck::AnyBitPattern>(words: &[u16]) -> Result<&[T], MeshError> {
     bytemuck::try_cast_slice(words).map_err(|_| MeshError::Alignment)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vertex_outside_the_sphere_is_named() {
+        let data = MeshData {
+            extent: I16F16::ONE,
+            center: [100, 0, 0],
+            radius: 500,
+            positions: &[[100, 300, 400], [100, 300, 401]],
+            normals: &[[0, 0, 1 << 14]; 2],
+            triangles: &[],
+            edges: &[],
+            parts: &[],
+            materials: &[],
+        };
+        assert_eq!(Mesh::new(data).err(), Some(MeshError::Sphere { vertex: 1 }));
+        assert!(Mesh::new(MeshData { radius: 501, ..data }).is_ok());
+    }
 }

@@ -175,8 +175,8 @@ fn is_shiny<const LIGHTS: usize>(triangle: &Triangle<'_, LIGHTS>, edge: u32, pow
     }
     // 2/3 of a Q15 number in Q28, without a division.
     let bend = edge * (16384 / 3 + 1);
-    // Q14 · Q15, rounded up a little, as Q31.
-    power.shows((most as u32 + 2).saturating_mul(inverse_root(bend as i32) + 4).saturating_mul(4))
+    // Q14 · Q15, rounded up a little: the cosine in Q29.
+    (most as u32 + 2) * (inverse_root(bend as i32) + 4) > power.start() >> 2
 }
 
 /// The cosines as quadratics, heights where there is a power; none if normals bend too much for that.

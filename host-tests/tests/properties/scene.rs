@@ -1,7 +1,7 @@
 //! Random scenes.
 
 use std::f64::consts::TAU;
-use std::iter::repeat_n;
+use std::iter::{repeat_n, zip};
 
 use beamshade::{
     Background, Camera, Color, Flat, Frame, Full, Light, Material, Mesh, MeshData, Picture, Pose, Rotation, Scanner, Turn,
@@ -245,6 +245,18 @@ fn poses() -> impl Strategy<Value = Pose> {
     (rotations(), scale, place).prop_map(|(rotation, scale, place)| Pose::turned(rotation).scaled(scale).at(place))
 }
 
+/// The least sphere around positions with that centre, or one around all that there can be.
+fn around(positions: &[[i16; 3]], center: [i16; 3]) -> ([i16; 3], u16) {
+    let square =
+        |position: &[i16; 3]| -> f64 { zip(*position, center).map(|(p, c)| (f64::from(p) - f64::from(c)).powi(2)).sum() };
+    let radius = positions.iter().map(square).fold(0.0, f64::max).sqrt().ceil();
+    if radius > f64::from(u16::MAX) {
+        ([0; 3], u16::MAX)
+    } else {
+        (center, radius as u16)
+    }
+}
+
 /// Up to 40 triangles: slivers, points, repeated vertices and all bit patterns of positions, normals and edges among them.
 fn shapes() -> impl Strategy<Value = Shape> {
     let coordinate =
@@ -253,10 +265,11 @@ fn shapes() -> impl Strategy<Value = Shape> {
     let vertex = (uniform3(coordinate()), normal());
     let edges = prop_oneof![2 => uniform3(0..3000u16), 1 => uniform3(any::<u16>())];
     let extent = prop_oneof![12 => Just(1 << 16), 1 => 1..=i32::MAX, 1 => 1..1000].prop_map(I16F16::from_bits);
-    let sphere = prop_oneof![9 => Just(([0; 3], u16::MAX)), 1 => (uniform3(any::<i16>()), any::<u16>())];
-    (vec(vertex, 1..=20), vec((any::<[u16; 3]>(), edges), 1..=40), extent, sphere, any::<[u16; 3]>()).prop_map(
-        |(vertices, triangles, extent, (center, radius), [split, first, second])| {
+    let center = prop_oneof![1 => Just([0; 3]), 1 => uniform3(any::<i16>())];
+    (vec(vertex, 1..=20), vec((any::<[u16; 3]>(), edges), 1..=40), extent, center, any::<[u16; 3]>()).prop_map(
+        |(vertices, triangles, extent, center, [split, first, second])| {
             let (positions, normals): (Vec<_>, Vec<_>) = vertices.into_iter().unzip();
+            let (center, radius) = around(&positions, center);
             let (corners, edges): (Vec<_>, Vec<_>) = triangles.into_iter().unzip();
             let corner = |number: u16| number % positions.len() as u16;
             let triangles: Vec<_> = corners.into_iter().map(|corners| corners.map(corner)).collect();
