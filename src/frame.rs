@@ -6,19 +6,20 @@ use embedded_graphics::{geometry::Size, primitives::Rectangle};
 use heapless::Vec;
 
 use crate::{
-    math::vector::Vector,
+    math::weights::Weights,
     model::{
         camera::Camera,
         clip::{clip, edge_constant, Corner},
-        light::{Aim, Light},
+        light::{Aim, Light, LightSource},
         material::Color,
-        mesh::Mesh,
+        mesh::{Mesh, MeshData},
         pose::Pose,
         projection::{Projection, Short, Sight},
     },
     scan::{
         bucket::{Kept, TriangleId},
-        picture::{Background, Made, Object, Picture},
+        geometry::{Geometry, Made, Object},
+        picture::{Background, Picture},
         vertex::Vertex,
     },
 };
@@ -37,17 +38,19 @@ pub struct Frame<
     const LIGHTS: usize = 1,
     const OBJECTS: usize = 4,
     const MADE: usize = 16,
+    L: LightSource = Light,
 > {
     camera: Camera,
     background: Background,
-    lights: [Light; LIGHTS],
+    lights: [L; LIGHTS],
     intensities: [u16; LIGHTS],
-    viewer: Vector,
     vertices: [Vertex<LIGHTS>; VERTICES],
     /// Number of vertices that are there.
     used: usize,
     buckets: Buckets<TRIANGLES, LINES>,
     objects: Vec<Object<'m>, OBJECTS>,
+    /// The lights as each object sees them.
+    aims: Vec<[L::Aim; LIGHTS], OBJECTS>,
     made: Vec<Made, MADE>,
     /// Objects added, those out of sight included.
     added: u16,
@@ -123,7 +126,8 @@ impl<
         const LIGHTS: usize,
         const OBJECTS: usize,
         const MADE: usize,
-    > Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE>
+        L: LightSource,
+    > Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE, L>
 {
     /// An empty frame, black; all zeros, so that a `static` takes no flash.
     #[must_use]
@@ -131,13 +135,13 @@ impl<
         Self {
             camera: Camera::NONE,
             background: Background::Plain(Color::BLACK),
-            lights: [Light::OFF; LIGHTS],
+            lights: [L::OFF; LIGHTS],
             intensities: [0; LIGHTS],
-            viewer: Vector([0; 3]),
             vertices: [Vertex::NONE; VERTICES],
             used: 0,
             buckets: Buckets::new(),
             objects: Vec::new(),
+            aims: Vec::new(),
             made: Vec::new(),
             added: 0,
             numbered: 0,
@@ -155,14 +159,14 @@ impl<
     ///
     /// # Errors
     /// [`Full::Lines`], if the camera's picture is higher than the frame; its first lines can be drawn.
-    pub fn begin(&mut self, camera: &Camera, lights: &[Light; LIGHTS]) -> Result<(), Full> {
+    pub fn begin(&mut self, camera: &Camera, lights: &[L; LIGHTS]) -> Result<(), Full> {
         self.camera = *camera;
         self.lights = *lights;
-        self.intensities = lights.each_ref().map(Light::strength);
-        self.viewer = camera.viewer();
+        self.intensities = lights.each_ref().map(L::strength);
         self.used = 0;
         self.buckets.clear(camera.viewport());
         self.objects.clear();
+        self.aims.clear();
         self.made.clear();
         self.added = 0;
         self.numbered = 0;
@@ -202,16 +206,16 @@ impl<
         if data.positions.len() > room {
             return Err(Full::Vertices { fitted: room as u16 });
         }
-        let object = Object { mesh, number, first_vertex, first_triangle, first_material };
-        if self.objects.push(object).is_err() {
+        let object = Object { mesh, number, place: self.objects.len() as u16, first_vertex, first_triangle, first_material };
+        let aims = self.lights.each_ref().map(|light| light.aim(&self.camera, mesh, pose));
+        if self.objects.push(object).is_err() || self.aims.push(aims).is_err() {
             return Err(Full::Objects { fitted: OBJECTS as u16 });
         }
         self.numbered = numbered as u16;
         self.materials = materials;
-        let aims = self.lights.map(|light| light.aim(self.viewer, pose.rotation));
         let vertices = self.vertices.get_mut(usize::from(first_vertex)..).unwrap_or_default();
         self.used += data.positions.len();
-        light(&aims, data.normals, vertices);
+        light::<LIGHTS, L>(&aims, data, vertices);
         if let Sight::Whole(way) = &sight {
             place(way, data.positions, vertices);
         } else {
@@ -223,7 +227,13 @@ impl<
     }
 
     /// Culls, clips and sorts the triangles of an object whose vertices are there.
-    fn keep(&mut self, object: &Object<'m>, projection: &Projection, aims: &[Aim; LIGHTS], is_whole: bool) -> Result<(), Full> {
+    fn keep(
+        &mut self,
+        object: &Object<'m>,
+        projection: &Projection,
+        aims: &[L::Aim; LIGHTS],
+        is_whole: bool,
+    ) -> Result<(), Full> {
         let data = object.mesh.data();
         let mut rest = data.triangles;
         let mut id = object.first_triangle;
@@ -273,23 +283,27 @@ impl<
         whole: TriangleId,
         double_sided: bool,
         projection: &Projection,
-        aims: &[Aim; LIGHTS],
+        aims: &[L::Aim; LIGHTS],
     ) -> Result<u16, ()> {
         let data = object.mesh.data();
-        let corner = |number: u16| {
-            let position = data.positions.get(usize::from(number)).copied().unwrap_or_default();
+        let position = |number: u16| data.positions.get(usize::from(number)).copied().unwrap_or_default();
+        let corner = |(number, weights): (u16, Weights)| {
+            let position = position(number);
             let normal = data.normals.get(usize::from(number)).copied().unwrap_or_default();
             let there = self.vertices.get(usize::from(object.first_vertex) + usize::from(number));
             let vertex = there.filter(|vertex| vertex.nearness() > 0).map(|_| object.first_vertex + number);
-            Corner { eye: projection.eye(position), normal, vertex }
+            Corner { eye: projection.eye(position), normal, vertex, weights }
         };
-        let mut polygon = clip(projection, corners.map(corner));
+        let [w0, w1, w2] = Weights::CORNERS;
+        let [n0, n1, n2] = corners;
+        let mut polygon = clip(projection, [(n0, w0), (n1, w1), (n2, w2)].map(corner));
         let (used, made, kept) = (self.used, self.made.len(), self.buckets.used);
         for corner in &mut polygon {
             if corner.vertex.is_some() {
                 continue;
             }
-            let vertex = Vertex::new(projection.screen(corner.eye), aims.each_ref().map(|aim| aim.dots(corner.normal)));
+            let place = corner.weights.mean(corners.map(position)).map(|c| ((c + (1 << 14)) >> 15) as i16);
+            let vertex = Vertex::new(projection.screen(corner.eye), aims.each_ref().map(|aim| aim.dots(place, corner.normal)));
             corner.vertex = Some(self.used as u16);
             let Some(room) = self.vertices.get_mut(self.used).filter(|_| self.used <= 0xffff) else {
                 self.used = used;
@@ -309,7 +323,12 @@ impl<
                 continue;
             }
             let edge = |a: &Corner, b: &Corner| edge_constant(a.normal, b.normal);
-            let part = Made { whole, corners: [a, b, c], edges: [edge(first, second), edge(second, third), edge(third, first)] };
+            let part = Made {
+                whole,
+                corners: [a, b, c],
+                edges: [edge(first, second), edge(second, third), edge(third, first)],
+                weights: [first.weights, second.weights, third.weights],
+            };
             if sorted.left_out > 0 || self.made.push(part).is_err() {
                 self.buckets.forget(kept);
                 self.made.truncate(made);
@@ -322,17 +341,16 @@ impl<
 
     /// The finished frame.
     #[must_use]
-    pub fn picture(&self) -> Picture<'_, LIGHTS> {
-        Picture {
+    pub fn picture(&self) -> Picture<'_, LIGHTS, L> {
+        let geometry = Geometry {
             viewport: self.buckets.viewport,
-            background: self.background,
-            intensities: &self.intensities,
             vertices: self.vertices.get(..self.used).unwrap_or_default(),
             heads: &self.buckets.heads,
             kept: self.buckets.kept.get(..self.buckets.used).unwrap_or_default(),
             objects: &self.objects,
             made: &self.made,
-        }
+        };
+        Picture { geometry, background: self.background, intensities: &self.intensities, aims: &self.aims }
     }
 }
 
@@ -343,7 +361,8 @@ impl<
         const LIGHTS: usize,
         const OBJECTS: usize,
         const MADE: usize,
-    > Default for Frame<'_, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE>
+        L: LightSource,
+    > Default for Frame<'_, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE, L>
 {
     fn default() -> Self {
         Self::new()
@@ -352,9 +371,9 @@ impl<
 
 /// Lights the vertices of an object.
 #[inline(never)]
-fn light<const LIGHTS: usize>(aims: &[Aim; LIGHTS], normals: &[[i16; 3]], vertices: &mut [Vertex<LIGHTS>]) {
-    for (vertex, normal) in vertices.iter_mut().zip(normals) {
-        vertex.dots = aims.each_ref().map(|aim| aim.dots(*normal));
+fn light<const LIGHTS: usize, L: LightSource>(aims: &[L::Aim; LIGHTS], data: &MeshData<'_>, vertices: &mut [Vertex<LIGHTS>]) {
+    for (vertex, (position, normal)) in vertices.iter_mut().zip(data.positions.iter().zip(data.normals)) {
+        vertex.dots = aims.each_ref().map(|aim| aim.dots(*position, *normal));
     }
 }
 

@@ -78,12 +78,15 @@ pub use frame::{Frame, Full};
 pub use math::{angle::Turn, rotation::Rotation, Length};
 pub use model::{
     camera::Camera,
-    light::Light,
+    light::{Light, LightSource, SceneLight},
     material::{Color, Material},
     mesh::{Mesh, MeshData, MeshError},
     pose::Pose,
 };
-pub use scan::picture::{Background, Picture, Source};
+pub use scan::{
+    geometry::Source,
+    picture::{Background, Picture},
+};
 pub use scanner::{Line, Lines, Scanner};
 pub use shade::{
     choose::{ByMaterial, Choose},

@@ -3,13 +3,18 @@
 use embedded_graphics::primitives::Rectangle;
 
 use crate::{
-    model::material::Color,
+    model::{
+        light::{Light, LightSource},
+        material::Color,
+    },
     scan::{
         active::Active,
+        geometry::Source,
         list::ActiveList,
-        picture::{Background, Picture, Source, Triangle},
+        picture::{Background, Picture},
         resolve::Sweep,
         table::{Span, Table},
+        triangle::Triangle,
     },
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::ink::Ink,
@@ -19,13 +24,13 @@ use crate::{
 ///
 /// Owns its memory: about 140 bytes for each active triangle with the default method and one light.
 #[derive(Clone, Debug)]
-pub struct Scanner<const ACTIVE: usize, S: Shade<LIGHTS> = DuffBarycentric, const LIGHTS: usize = 1> {
+pub struct Scanner<const ACTIVE: usize, S: Shade<LIGHTS, L> = DuffBarycentric, const LIGHTS: usize = 1, L: LightSource = Light> {
     list: ActiveList<ACTIVE>,
     facets: [S::Facet; ACTIVE],
     table: Table<ACTIVE>,
 }
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Scanner<ACTIVE, S, LIGHTS> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Scanner<ACTIVE, S, LIGHTS, L> {
     /// A scanner at rest.
     #[must_use]
     pub const fn new() -> Self {
@@ -33,13 +38,13 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Scanner<ACTIVE,
     }
 
     /// Starts on a picture, above its first line.
-    pub fn start<'s>(&'s mut self, picture: Picture<'s, LIGHTS>) -> Lines<'s, ACTIVE, S, LIGHTS> {
+    pub fn start<'s>(&'s mut self, picture: Picture<'s, LIGHTS, L>) -> Lines<'s, ACTIVE, S, LIGHTS, L> {
         // The walk to the first line asked for clears the list.
         Lines { scanner: self, picture, line: None, dropped: 0 }
     }
 }
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Default for Scanner<ACTIVE, S, LIGHTS> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Default for Scanner<ACTIVE, S, LIGHTS, L> {
     fn default() -> Self {
         Self::new()
     }
@@ -63,15 +68,16 @@ pub struct Line {
 
 /// The lines of one picture, in any order; from top to bottom is fastest.
 #[derive(Debug)]
-pub struct Lines<'s, const ACTIVE: usize, S: Shade<LIGHTS> = DuffBarycentric, const LIGHTS: usize = 1> {
-    scanner: &'s mut Scanner<ACTIVE, S, LIGHTS>,
-    picture: Picture<'s, LIGHTS>,
+pub struct Lines<'s, const ACTIVE: usize, S: Shade<LIGHTS, L> = DuffBarycentric, const LIGHTS: usize = 1, L: LightSource = Light>
+{
+    scanner: &'s mut Scanner<ACTIVE, S, LIGHTS, L>,
+    picture: Picture<'s, LIGHTS, L>,
     /// The line that the active list stands on.
     line: Option<u16>,
     dropped: u16,
 }
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIVE, S, LIGHTS> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, ACTIVE, S, LIGHTS, L> {
     /// Where the picture lies on the panel, and its size.
     #[must_use]
     pub const fn viewport(&self) -> Rectangle {
@@ -87,12 +93,12 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
         if !self.seek(y) {
             return Line { dropped: self.dropped, ..Line::default() };
         }
-        let width = self.picture.width().min(row.len() as i32);
+        let width = self.picture.geometry.width().min(row.len() as i32);
         let mut line = Line { active: self.scanner.list.extents().len() as u16, dropped: self.dropped, ..Line::default() };
         let background = background(&self.picture, y);
         let mut sweep = Sweep::new(y, width);
         let mut from = 0;
-        while sweep.fill(&mut self.scanner.list, &self.picture, &mut self.scanner.table) {
+        while sweep.fill(&mut self.scanner.list, &self.picture.geometry, &mut self.scanner.table) {
             from = self.shade_table(y, from, background, row, &mut line);
         }
         if from < width {
@@ -106,10 +112,10 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
         if !self.seek(y) {
             return;
         }
-        let mut sweep = Sweep::new(y, self.picture.width());
-        while sweep.fill(&mut self.scanner.list, &self.picture, &mut self.scanner.table) {
+        let mut sweep = Sweep::new(y, self.picture.geometry.width());
+        while sweep.fill(&mut self.scanner.list, &self.picture.geometry, &mut self.scanner.table) {
             for span in self.scanner.table.spans() {
-                let source = self.scanner.list.get(span.slot).and_then(|active| self.picture.source(active.id));
+                let source = self.scanner.list.get(span.slot).and_then(|active| self.picture.geometry.source(active.id));
                 if let Some(source) = source {
                     see(span.start as u16..span.end as u16, source);
                 }
@@ -119,20 +125,20 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
 
     /// Brings the active list to line y; false if the picture has no such line.
     fn seek(&mut self, y: u16) -> bool {
-        if y >= self.picture.height() {
+        if y >= self.picture.geometry.height() {
             return false;
         }
         let mut line = match self.line {
             Some(line) if line <= y => line,
             _ => {
                 self.scanner.list.clear();
-                self.dropped = self.scanner.list.enter(0, &self.picture);
+                self.dropped = self.scanner.list.enter(0, &self.picture.geometry);
                 0
             }
         };
         while line < y {
             line += 1;
-            self.dropped = self.dropped.saturating_add(self.scanner.list.advance(line, &self.picture));
+            self.dropped = self.dropped.saturating_add(self.scanner.list.advance(line, &self.picture.geometry));
         }
         self.line = Some(y);
         true
@@ -159,10 +165,10 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
             if !active.shaded {
                 active.shaded = true;
                 line.facets += 1;
-                line.bent += u16::from(set_up::<S, LIGHTS>(picture, active, surface, facet));
+                line.bent += u16::from(set_up::<S, LIGHTS, L>(picture, active, surface, facet));
             }
             let Some(pixels) = row.get_mut(start as usize..end as usize) else { continue };
-            shade::<P, S, LIGHTS>(facet, surface, paint, start, y.into(), pixels);
+            shade::<P, S, LIGHTS, L>(facet, surface, paint, start, y.into(), pixels);
         }
         from
     }
@@ -178,18 +184,18 @@ struct Dressed<'p, P: Ink, const LIGHTS: usize> {
 
 impl<'p, P: Ink, const LIGHTS: usize> Dressed<'p, P, LIGHTS> {
     #[inline(never)]
-    fn new(picture: &Picture<'p, LIGHTS>, look: u16) -> Option<Self> {
-        let material = picture.material(look)?;
+    fn new<L: LightSource>(picture: &Picture<'p, LIGHTS, L>, look: u16) -> Option<Self> {
+        let material = picture.geometry.material(look)?;
         let surface = Surface { material, intensities: picture.intensities };
         Some(Self { look, surface, paint: P::paint(material) })
     }
 }
 
 /// The background's colour on line y; none if pixels stay what they were.
-fn background<const LIGHTS: usize>(picture: &Picture<'_, LIGHTS>, y: u16) -> Option<Color> {
+fn background<const LIGHTS: usize, L: LightSource>(picture: &Picture<'_, LIGHTS, L>, y: u16) -> Option<Color> {
     match picture.background {
         Background::Plain(color) => Some(color),
-        Background::Gradient { top, bottom } => Some(between(top, bottom, y, picture.height())),
+        Background::Gradient { top, bottom } => Some(between(top, bottom, y, picture.geometry.height())),
         Background::Keep => None,
     }
 }
@@ -208,7 +214,7 @@ fn fill<P: Ink>(row: &mut [P], from: i32, to: i32, background: Option<Color>) {
 
 /// Shades one span.
 #[inline(never)]
-fn shade<P: Ink, S: Shade<LIGHTS>, const LIGHTS: usize>(
+fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
     facet: &S::Facet,
     surface: &Surface<'_, LIGHTS>,
     paint: &P::Paint<'_>,
@@ -221,8 +227,8 @@ fn shade<P: Ink, S: Shade<LIGHTS>, const LIGHTS: usize>(
 
 /// Sets up the facet of a triangle; whether its normals bend beyond what shading follows.
 #[inline(never)]
-fn set_up<S: Shade<LIGHTS>, const LIGHTS: usize>(
-    picture: &Picture<'_, LIGHTS>,
+fn set_up<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
+    picture: &Picture<'_, LIGHTS, L>,
     active: &Active,
     surface: &Surface<'_, LIGHTS>,
     facet: &mut S::Facet,
@@ -231,7 +237,7 @@ fn set_up<S: Shade<LIGHTS>, const LIGHTS: usize>(
     let corners;
     let triangle = if surface.material.double_sided && triangle.is_turned() {
         corners = triangle.turned();
-        Triangle { corners: corners.each_ref(), ..triangle }
+        Triangle { corners: corners.each_ref(), turned: true, ..triangle }
     } else {
         triangle
     };

@@ -20,6 +20,7 @@
 
 pub mod angle;
 pub mod gradient;
+pub mod interpolant;
 pub mod power;
 pub mod product;
 pub mod quadratic;
@@ -28,6 +29,7 @@ pub mod root;
 pub mod rotation;
 pub mod screen;
 pub mod vector;
+pub mod weights;
 
 /// A length in the world.
 pub type Length = fixed::types::I16F16;

@@ -155,6 +155,11 @@ impl Camera {
         self.rotation.turn(Vector([0, 0, 1 << 30]))
     }
 
+    /// Where the viewer is, in the world.
+    pub(crate) const fn place(&self) -> [Length; 3] {
+        self.position
+    }
+
     /// The way from the positions of that mesh in that pose to the screen.
     #[must_use]
     pub fn project(&self, mesh: &Mesh<'_>, pose: &Pose) -> Projection {

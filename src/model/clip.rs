@@ -3,6 +3,7 @@
 use heapless::Vec;
 
 use super::projection::{Eye, Projection};
+use crate::math::{vector::Vector, weights::Weights};
 
 /// A corner of what is left of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +14,8 @@ pub struct Corner {
     pub normal: [i16; 3],
     /// Number of the vertex, for a corner that was there before.
     pub vertex: Option<u16>,
+    /// Where it is in the triangle.
+    pub weights: Weights,
 }
 
 /// The corners of a triangle cut at five planes.
@@ -62,9 +65,10 @@ fn between(inside: Corner, near: i64, outside: Corner, far: i64) -> Corner {
     let [ox, oy, oz] = outside.normal.map(i32::from);
     // Sixteen bits more than the normals have, so that the cut's normal is as exact as theirs.
     let normal = [(nx, ox), (ny, oy), (nz, oz)].map(|(n, o)| i64::from(mix(n << 16, o << 16)));
-    let unit = crate::math::vector::Vector::unit(normal);
+    let unit = Vector::unit(normal);
     let normal = unit.map_or(inside.normal, |unit| unit.0.map(|c| ((c + (1 << 15)) >> 16) as i16));
-    Corner { eye: [mix(ax, bx), mix(ay, by), mix(az, bz)], normal, vertex: None }
+    let weights = inside.weights.towards(outside.weights, part as u32);
+    Corner { eye: [mix(ax, bx), mix(ay, by), mix(az, bz)], normal, vertex: None, weights }
 }
 
 /// The edge constant `1 − n·m` of two unit normals in Q14, as Q15: half the square of their difference.

@@ -1,8 +1,78 @@
 //! Lights.
 
-use crate::math::{rotation::Rotation, vector::Vector};
+use core::fmt::Debug;
 
-/// A directional light of white colour.
+use super::{camera::Camera, mesh::Mesh, pose::Pose};
+use crate::math::{
+    interpolant::{Interpolant, Plane},
+    length,
+    quadratic::Quadratic,
+    vector::{unit, Vector},
+    Length,
+};
+
+/// A kind of light source, and with it the kind of viewer.
+///
+/// All lights of a frame are of one kind, named in its type, so that what only the other kind needs is not linked.
+pub trait LightSource: Copy + Debug {
+    /// The light as the vertices of one object see it.
+    type Aim: Aim;
+    /// How its products with an interpolated normal run over a triangle on the screen.
+    type Product: Interpolant;
+    /// Whether its direction or the viewer's changes from place to place.
+    const IN_SCENE: bool;
+    /// A light that is off.
+    const OFF: Self;
+
+    /// The intensity in Q15.
+    #[must_use]
+    fn strength(&self) -> u16;
+
+    /// The light as that mesh in that pose sees it, and the viewer.
+    #[must_use]
+    fn aim(&self, camera: &Camera, mesh: &Mesh<'_>, pose: &Pose) -> Self::Aim;
+}
+
+/// A light source in the space of an object.
+pub trait Aim: Copy + Debug {
+    /// Directions seen from a position in the mesh, Q15 of its extent.
+    #[must_use]
+    fn rays(&self, position: [i16; 3]) -> Rays;
+
+    /// `[intensity · n·l, n·h]` in Q14, for a position, Q15 of the mesh's extent, and a normal, Q14.
+    #[must_use]
+    fn dots(&self, position: [i16; 3], normal: [i16; 3]) -> [i16; 2];
+}
+
+/// Unit vectors at a place on a surface, in the object's space, Q16; null vectors for a light that is off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rays {
+    /// l, to the light.
+    pub light: [i32; 3],
+    /// h, half way between light and viewer: h = (l + v)/|l + v| (*Faster Phong Shading*, Eq. 1).
+    pub half: [i32; 3],
+    /// v, to the viewer.
+    pub viewer: [i32; 3],
+}
+
+impl Rays {
+    /// No light.
+    const NONE: Self = Self { light: [0; 3], half: [0; 3], viewer: [0; 3] };
+
+    /// `[intensity · n·l, n·h]` in Q14, intensity in Q15.
+    #[inline(always)]
+    fn dots(&self, normal: [i16; 3], intensity: u16) -> [i16; 2] {
+        // Q14 · Q16 = Q30; each sum is at most √3 of that.
+        let dot = |[x, y, z]: [i32; 3]| {
+            let [nx, ny, nz] = normal.map(i32::from);
+            x.wrapping_mul(nx).wrapping_add(y.wrapping_mul(ny)).wrapping_add(z.wrapping_mul(nz))
+        };
+        let round = |product: i32| product.wrapping_add(1 << 15) >> 16;
+        [((round(dot(self.light)) * i32::from(intensity)) >> 15) as i16, round(dot(self.half)) as i16]
+    }
+}
+
+/// A directional light of white colour, for a viewer at infinity: the same directions everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Light {
     /// Unit vector towards the light, in the world; the null vector for a light that is off.
@@ -28,51 +98,170 @@ impl Light {
     /// The same with another intensity, 0.0 to 1.0, clamped.
     #[must_use]
     pub const fn intensity(mut self, intensity: f32) -> Self {
-        let scaled = (intensity * 32768.0 + 0.5) as u16;
-        self.intensity = if scaled > 1 << 15 { 1 << 15 } else { scaled };
+        self.intensity = strength(intensity);
         self
     }
+}
 
-    /// The intensity in Q15.
-    #[must_use]
-    pub const fn strength(&self) -> u16 {
+impl LightSource for Light {
+    type Aim = Far;
+    type Product = Plane;
+    const IN_SCENE: bool = false;
+    const OFF: Self = Self::OFF;
+
+    fn strength(&self) -> u16 {
         self.intensity
     }
 
-    /// Light and half vector in the space of an object, for a viewer at infinity.
-    ///
-    /// `viewer` is the unit vector to the viewer, in the world; h = (l + v)/|l + v| (*Faster Phong Shading*, Eq. 1).
-    #[must_use]
-    pub fn aim(&self, viewer: Vector, object: Rotation) -> Aim {
-        let half = if self.intensity == 0 { None } else { Vector::unit(self.direction + viewer) };
-        let back = object.inverse();
-        // Q30 · Q15 to Q16.
-        let short = |vector: Vector, factor: u16| {
-            back.turn(vector).0.map(|c| ((i64::from(c) * i64::from(factor) + (1 << 28)) >> 29) as i32)
-        };
-        Aim { light: short(self.direction, self.intensity), half: half.map_or([0; 3], |half| short(half, 1 << 15)) }
+    fn aim(&self, camera: &Camera, _: &Mesh<'_>, pose: &Pose) -> Far {
+        if self.intensity == 0 {
+            return Far { rays: Rays::NONE, intensity: 0 };
+        }
+        let viewer = camera.viewer();
+        let back = pose.rotation.inverse();
+        // Q30 to Q16.
+        let short = |vector: Vector| back.turn(vector).0.map(|c| (c + (1 << 13)) >> 14);
+        let half = Vector::unit(self.direction + viewer).map_or([0; 3], short);
+        Far { rays: Rays { light: short(self.direction), half, viewer: short(viewer) }, intensity: self.intensity }
     }
 }
 
-/// A light as an object's vertices see it: two directions in the object's space, Q16.
+/// A directional light in the space of an object.
 #[derive(Clone, Copy, Debug)]
-pub struct Aim {
-    /// As long as the light is intense.
-    light: [i32; 3],
-    half: [i32; 3],
+pub struct Far {
+    rays: Rays,
+    /// Q15.
+    intensity: u16,
 }
 
-impl Aim {
-    /// `[intensity · n·l, n·h]` in Q14 for a normal in Q14.
-    #[inline]
+impl Aim for Far {
+    #[inline(always)]
+    fn rays(&self, _: [i16; 3]) -> Rays {
+        self.rays
+    }
+
+    #[inline(always)]
+    fn dots(&self, _: [i16; 3], normal: [i16; 3]) -> [i16; 2] {
+        self.rays.dots(normal, self.intensity)
+    }
+}
+
+/// A light of white colour in a scene that the viewer is in, too: directions change from place to place.
+///
+/// *Faster Phong Shading*, §3.5; *Adaptive Shading*, §2. It does not get weaker with distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SceneLight {
+    place: Place,
+    /// Q15.
+    intensity: u16,
+}
+
+/// Where a light is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// At a point of the world.
+    Point([Length; 3]),
+    /// In a direction, infinitely far.
+    Direction(Vector),
+}
+
+impl SceneLight {
+    /// A light of full intensity at that place in the world.
     #[must_use]
-    pub fn dots(&self, normal: [i16; 3]) -> [i16; 2] {
-        // Q14 · Q16 = Q30; each sum is at most √3 of that.
-        let dot = |[x, y, z]: [i32; 3]| {
-            let [nx, ny, nz] = normal.map(i32::from);
-            x.wrapping_mul(nx).wrapping_add(y.wrapping_mul(ny)).wrapping_add(z.wrapping_mul(nz))
+    pub const fn point([x, y, z]: [f32; 3]) -> Self {
+        Self { place: Place::Point([length(x), length(y), length(z)]), intensity: 1 << 15 }
+    }
+
+    /// A light of full intensity from that direction, as [`Light::directional`], for a viewer in the scene.
+    #[must_use]
+    pub fn directional(towards: [f32; 3]) -> Self {
+        match Vector::unit_f32(towards) {
+            Some(direction) => Self { place: Place::Direction(direction), intensity: 1 << 15 },
+            None => Self::OFF,
+        }
+    }
+
+    /// No light.
+    pub const OFF: Self = Self { place: Place::Direction(Vector([0; 3])), intensity: 0 };
+
+    /// The same with another intensity, 0.0 to 1.0, clamped.
+    #[must_use]
+    pub const fn intensity(mut self, intensity: f32) -> Self {
+        self.intensity = strength(intensity);
+        self
+    }
+}
+
+impl LightSource for SceneLight {
+    type Aim = Near;
+    type Product = Quadratic;
+    const IN_SCENE: bool = true;
+    const OFF: Self = Self::OFF;
+
+    fn strength(&self) -> u16 {
+        self.intensity
+    }
+
+    fn aim(&self, camera: &Camera, mesh: &Mesh<'_>, pose: &Pose) -> Near {
+        let light = match self.place {
+            Place::Point(place) => Spot::Place(pose.back(place, mesh.data.extent)),
+            Place::Direction(direction) => {
+                Spot::Direction(pose.rotation.inverse().turn(direction).0.map(|c| (c + (1 << 13)) >> 14))
+            }
         };
-        let round = |product: i32| (product.wrapping_add(1 << 15) >> 16) as i16;
-        [round(dot(self.light)), round(dot(self.half))]
+        Near { light, viewer: pose.back(camera.place(), mesh.data.extent), intensity: self.intensity }
+    }
+}
+
+/// A light and a viewer in the scene, in the space of an object.
+#[derive(Clone, Copy, Debug)]
+pub struct Near {
+    light: Spot,
+    /// 2⁻¹⁶ of the mesh's extent.
+    viewer: [i32; 3],
+    /// Q15.
+    intensity: u16,
+}
+
+/// Where a light is, as an object sees it.
+#[derive(Clone, Copy, Debug)]
+enum Spot {
+    /// 2⁻¹⁶ of the mesh's extent.
+    Place([i32; 3]),
+    /// A unit vector, Q16.
+    Direction([i32; 3]),
+}
+
+impl Aim for Near {
+    fn rays(&self, position: [i16; 3]) -> Rays {
+        if self.intensity == 0 {
+            return Rays::NONE;
+        }
+        let towards = |[x, y, z]: [i32; 3]| {
+            let [px, py, pz] = position.map(|c| 2 * i32::from(c));
+            unit([x.saturating_sub(px), y.saturating_sub(py), z.saturating_sub(pz)])
+        };
+        let light = match self.light {
+            Spot::Place(place) => towards(place),
+            Spot::Direction(direction) => direction,
+        };
+        let viewer = towards(self.viewer);
+        let ([lx, ly, lz], [vx, vy, vz]) = (light, viewer);
+        Rays { light, half: unit([lx + vx, ly + vy, lz + vz]), viewer }
+    }
+
+    #[inline]
+    fn dots(&self, position: [i16; 3], normal: [i16; 3]) -> [i16; 2] {
+        self.rays(position).dots(normal, self.intensity)
+    }
+}
+
+/// 0.0 … 1.0 to Q15, rounded, clamped.
+const fn strength(intensity: f32) -> u16 {
+    let scaled = (intensity * 32768.0 + 0.5) as u16;
+    if scaled > 1 << 15 {
+        1 << 15
+    } else {
+        scaled
     }
 }

@@ -1,6 +1,6 @@
 //! Where an object stands.
 
-use crate::math::{angle::Turn, length, rotation::Rotation, Length};
+use crate::math::{angle::Turn, length, rotation::Rotation, vector::Vector, Length};
 
 /// Rotation, then uniform scale, then translation: from a mesh's space to the world's.
 ///
@@ -41,4 +41,23 @@ impl Pose {
         self.scale = length(scale);
         self
     }
+
+    /// A place in the world as a mesh of that extent has it in this pose: in 2⁻¹⁶ of the extent, saturating.
+    #[must_use]
+    pub(crate) fn back(&self, place: [Length; 3], extent: Length) -> [i32; 3] {
+        let apart = |place: Length, position: Length| {
+            (i64::from(place.to_bits()) - i64::from(position.to_bits())).clamp(-(1 << 30), 1 << 30) as i32
+        };
+        let ([x, y, z], [px, py, pz]) = (place, self.position);
+        let Vector(turned) = self.rotation.inverse().turn(Vector([apart(x, px), apart(y, py), apart(z, pz)]));
+        // Q16 over Q32.
+        let size = i64::from(self.scale.to_bits()) * i64::from(extent.to_bits());
+        turned.map(|c| {
+            let place = (i64::from(c) << 32).checked_div(size.max(1)).unwrap_or(0);
+            place.clamp(-FARTHEST, FARTHEST) as i32
+        })
+    }
 }
+
+/// So far that the direction changes no more: 2¹⁴ extents.
+const FARTHEST: i64 = 1 << 30;

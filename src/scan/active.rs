@@ -1,6 +1,6 @@
 //! The triangles that cross a line.
 
-use super::{bucket::TriangleId, edge::Edge, picture::Picture, table::Span, vertex::Vertex};
+use super::{bucket::TriangleId, edge::Edge, geometry::Geometry, table::Span, vertex::Vertex};
 use crate::math::{
     gradient::Gradient,
     screen::{area, first_at},
@@ -57,11 +57,16 @@ impl Active {
     /// Becomes a triangle on line `line`, on which or above which it must start. Returns the number of its material; none if it
     /// is not on that line.
     #[inline(never)]
-    pub(crate) fn begin<const LIGHTS: usize>(&mut self, id: TriangleId, line: u16, picture: &Picture<'_, LIGHTS>) -> Option<u16> {
-        let numbers = picture.numbers(id)?;
+    pub(crate) fn begin<const LIGHTS: usize>(
+        &mut self,
+        id: TriangleId,
+        line: u16,
+        geometry: &Geometry<'_, LIGHTS>,
+    ) -> Option<u16> {
+        let numbers = geometry.numbers(id)?;
         let look = numbers.look();
         let [na, nb, nc] = numbers.corners;
-        let (a, b, c) = (picture.vertex(na)?, picture.vertex(nb)?, picture.vertex(nc)?);
+        let (a, b, c) = (geometry.vertex(na)?, geometry.vertex(nb)?, geometry.vertex(nc)?);
         self.id = id;
         let [wa, wb, wc] = [a, b, c].map(Vertex::nearness);
         self.far = (wa.min(wb).min(wc) >> 8) as u16;
@@ -145,10 +150,10 @@ impl Active {
     /// Makes `depth` ready.
     #[cold]
     #[inline(never)]
-    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, picture: &Picture<'_, LIGHTS>) {
-        let Some(triangle) = picture.triangle(self.id) else { return };
-        let points = triangle.points();
-        let [w0, w1, w2] = triangle.corners.map(|corner| corner.nearness() as i32);
+    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, geometry: &Geometry<'_, LIGHTS>) {
+        let Some(corners) = geometry.corners(self.id) else { return };
+        let points = corners.map(Vertex::point);
+        let [w0, w1, w2] = corners.map(|corner| corner.nearness() as i32);
         let [p0, ..] = points;
         let [x, y] = Gradient::anchor(p0).map(i32::from);
         let [at, dx, dy] = match Gradient::new(points) {

@@ -4,7 +4,7 @@ use core::cell::Cell;
 
 use heapless::Vec;
 
-use super::{active::Active, bucket::TriangleId, picture::Picture, table::Span, vertex::Vertex};
+use super::{active::Active, bucket::TriangleId, geometry::Geometry, table::Span, vertex::Vertex};
 
 /// The slot of a triangle that ended.
 const NOWHERE: u16 = u16::MAX;
@@ -54,14 +54,14 @@ impl<const N: usize> ActiveList<N> {
     /// On to line `line`, the next one: steps all, lets go of those that ended, takes in those that start. Returns the number
     /// of triangles left out for want of room.
     #[inline(never)]
-    pub(crate) fn advance<const L: usize>(&mut self, line: u16, picture: &Picture<'_, L>) -> u16 {
+    pub(crate) fn advance<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, L>) -> u16 {
         let free = self.free;
-        self.step(line.into(), picture.vertices);
+        self.step(line.into(), geometry.vertices);
         if self.free != free {
             self.order.retain(|span| span.slot != NOWHERE);
         }
         self.sort();
-        self.enter(line, picture)
+        self.enter(line, geometry)
     }
 
     /// Steps all to line `line`, and marks those that ended.
@@ -102,24 +102,24 @@ impl<const N: usize> ActiveList<N> {
     /// Takes in the triangles that start on line `line`. Returns the number of those left out.
     ///
     /// A few at a time, put in order first, so that each of the others moves once.
-    pub(crate) fn enter<const L: usize>(&mut self, line: u16, picture: &Picture<'_, L>) -> u16 {
+    pub(crate) fn enter<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, L>) -> u16 {
         let mut dropped = 0;
         let mut new = Vec::new();
-        for id in picture.starting(line) {
+        for id in geometry.starting(line) {
             if new.is_full() {
                 self.merge(&mut new);
             }
             if self.slots.get(usize::from(self.free)).is_none() {
                 self.merge(&mut new);
                 dropped += 1;
-                match self.farther_than(id, picture) {
+                match self.farther_than(id, geometry) {
                     Some(place) => self.remove(place),
                     None => continue,
                 }
             }
             let slot = self.free;
             let Some(active) = self.slots.get_mut(usize::from(slot)) else { continue };
-            if let Some(look) = active.begin(id, line, picture) {
+            if let Some(look) = active.begin(id, line, geometry) {
                 self.free = active.next;
                 let (start, end) = active.extent();
                 let span = Span { start, end, slot, look };
@@ -163,10 +163,9 @@ impl<const N: usize> ActiveList<N> {
     /// number; none if it is this one. What is left out thus depends on the picture alone.
     #[cold]
     #[inline(never)]
-    fn farther_than<const L: usize>(&self, id: TriangleId, picture: &Picture<'_, L>) -> Option<usize> {
+    fn farther_than<const L: usize>(&self, id: TriangleId, geometry: &Geometry<'_, L>) -> Option<usize> {
         let rank = |id: TriangleId| {
-            let triangle = picture.triangle(id);
-            let nearest = triangle.and_then(|triangle| triangle.corners.iter().map(|corner| corner.nearness()).max());
+            let nearest = geometry.corners(id).and_then(|corners| corners.iter().map(|corner| corner.nearness()).max());
             (nearest.unwrap_or(0), core::cmp::Reverse(id))
         };
         let mut least = rank(id);

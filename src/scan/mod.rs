@@ -3,8 +3,10 @@
 pub mod active;
 pub mod bucket;
 pub mod edge;
+pub mod geometry;
 pub mod list;
 pub mod picture;
 pub mod resolve;
 pub mod table;
+pub mod triangle;
 pub mod vertex;

@@ -4,8 +4,8 @@ use heapless::Vec;
 
 use super::{
     bucket::TriangleId,
+    geometry::Geometry,
     list::ActiveList,
-    picture::Picture,
     table::{Span, Table},
 };
 
@@ -39,24 +39,24 @@ impl<const N: usize> Sweep<N> {
     pub(crate) fn fill<const L: usize>(
         &mut self,
         list: &mut ActiveList<N>,
-        picture: &Picture<'_, L>,
+        geometry: &Geometry<'_, L>,
         table: &mut Table<N>,
     ) -> bool {
         table.clear();
         if self.x < self.width {
-            self.resolve(list, picture, table);
+            self.resolve(list, geometry, table);
         }
         !table.spans().is_empty()
     }
 
     #[inline(never)]
-    fn resolve<const L: usize>(&mut self, list: &mut ActiveList<N>, picture: &Picture<'_, L>, table: &mut Table<N>) {
+    fn resolve<const L: usize>(&mut self, list: &mut ActiveList<N>, geometry: &Geometry<'_, L>, table: &mut Table<N>) {
         while self.x < self.width && !table.is_full() {
             if self.open.is_empty() {
                 self.alone(list.extents(), table);
             }
             if !self.open.is_empty() {
-                self.covered(list, picture, table);
+                self.covered(list, geometry, table);
             }
         }
     }
@@ -103,7 +103,7 @@ impl<const N: usize> Sweep<N> {
 
     /// Where some are open: sees one triangle after the other, until none is open, or the table is full.
     #[inline(never)]
-    fn covered<const L: usize>(&mut self, list: &mut ActiveList<N>, picture: &Picture<'_, L>, table: &mut Table<N>) {
+    fn covered<const L: usize>(&mut self, list: &mut ActiveList<N>, geometry: &Geometry<'_, L>, table: &mut Table<N>) {
         let Self { width, mut x, mut next, .. } = *self;
         // What is nearer than this is in front of all open ones.
         let mut bound = i32::MAX;
@@ -115,7 +115,7 @@ impl<const N: usize> Sweep<N> {
             } else {
                 bound = 0;
                 if self.open.len() > 1 {
-                    (until, bound) = self.elect(x, list, picture);
+                    (until, bound) = self.elect(x, list, geometry);
                 }
                 place = self.open.pop().map_or(usize::MAX, usize::from);
             }
@@ -140,7 +140,7 @@ impl<const N: usize> Sweep<N> {
                 if front.far <= other.near {
                     ahead = true;
                     if other.far <= front.near {
-                        (ahead, crossing) = self.duel([other.place, front.place], start, list, picture);
+                        (ahead, crossing) = self.duel([other.place, front.place], start, list, geometry);
                     }
                 }
                 if !ahead {
@@ -187,7 +187,7 @@ impl<const N: usize> Sweep<N> {
     /// Of several open ones, brings the nearest at x to the end, and lets go of those that are never seen again. Returns where
     /// the first of the others crosses it, and the nearness of the nearest of these.
     #[inline(never)]
-    fn elect<const L: usize>(&mut self, x: i32, list: &mut ActiveList<N>, picture: &Picture<'_, L>) -> (i32, i32) {
+    fn elect<const L: usize>(&mut self, x: i32, list: &mut ActiveList<N>, geometry: &Geometry<'_, L>) -> (i32, i32) {
         let mut front = Open::NONE;
         while let Some(other) = self.open.pop().and_then(|place| Open::new(place.into(), list)) {
             front = other;
@@ -198,7 +198,7 @@ impl<const N: usize> Sweep<N> {
         for i in 0..self.open.len() {
             let Some(other) = self.open.get(i).and_then(|place| Open::new((*place).into(), list)) else { break };
             let near = other.end > x && front.far <= other.near;
-            if near && (other.far > front.near || self.duel([other.place, front.place], x, list, picture).0) {
+            if near && (other.far > front.near || self.duel([other.place, front.place], x, list, geometry).0) {
                 if let Some(place) = self.open.get_mut(i) {
                     *place = front.place as u16;
                 }
@@ -211,7 +211,7 @@ impl<const N: usize> Sweep<N> {
             let Some(other) = self.open.get(i).and_then(|place| Open::new((*place).into(), list)) else { break };
             let mut crossing = i32::MAX;
             if other.end > x && front.far <= other.near {
-                (_, crossing) = self.duel([other.place, front.place], x, list, picture);
+                (_, crossing) = self.duel([other.place, front.place], x, list, geometry);
             }
             if other.end > front.end || crossing < i32::MAX {
                 if let Some(place) = self.open.get_mut(kept) {
@@ -235,7 +235,7 @@ impl<const N: usize> Sweep<N> {
         [other, front]: [usize; 2],
         x: i32,
         list: &mut ActiveList<N>,
-        picture: &Picture<'_, L>,
+        geometry: &Geometry<'_, L>,
     ) -> (bool, i32) {
         const NEVER: (bool, i32) = (false, i32::MAX);
         let extents = list.extents();
@@ -244,12 +244,12 @@ impl<const N: usize> Sweep<N> {
         let slots = [other.slot, front.slot];
         for slot in slots {
             match list.get_mut(slot) {
-                Some(active) if !active.deep => active.deepen(picture),
+                Some(active) if !active.deep => active.deepen(geometry),
                 _ => {}
             }
         }
         let [Some(other), Some(front)] = slots.map(|slot| list.get(slot)) else { return NEVER };
-        let wins = || wins(other.id, front.id, picture);
+        let wins = || wins(other.id, front.id, geometry);
         let is_ahead = |lead: i32| lead > 0 || lead == 0 && wins();
         let lead = other.depth_at(x, self.line).wrapping_sub(front.depth_at(x, self.line));
         let step = other.depth_step().wrapping_sub(front.depth_step());
@@ -295,6 +295,6 @@ impl Open {
 /// Whether `other` is in front where both are equally near.
 #[cold]
 #[inline(never)]
-fn wins<const L: usize>(other: TriangleId, front: TriangleId, picture: &Picture<'_, L>) -> bool {
-    (picture.whole(other), other) <= (picture.whole(front), front)
+fn wins<const L: usize>(other: TriangleId, front: TriangleId, geometry: &Geometry<'_, L>) -> bool {
+    (geometry.whole(other), other) <= (geometry.whole(front), front)
 }

@@ -3,20 +3,23 @@
 use core::marker::PhantomData;
 
 use super::{Paint, Shade, Surface};
-use crate::scan::picture::Triangle;
+use crate::{
+    model::light::{Light, LightSource},
+    scan::triangle::Triangle,
+};
 
 /// Which of two methods shades a triangle.
-pub trait Rule<const LIGHTS: usize> {
+pub trait Rule<const LIGHTS: usize, L: LightSource = Light> {
     /// Whether it is the second.
-    fn second(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool;
+    fn second(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> bool;
 }
 
 /// The rule that leaves it to the material: the second method for those [marked plain](crate::Material::plain).
 #[derive(Clone, Copy, Debug)]
 pub struct ByMaterial;
 
-impl<const LIGHTS: usize> Rule<LIGHTS> for ByMaterial {
-    fn second(_: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> bool {
+impl<const LIGHTS: usize, L: LightSource> Rule<LIGHTS, L> for ByMaterial {
+    fn second(_: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> bool {
         surface.material.plain
     }
 }
@@ -34,12 +37,14 @@ pub enum Either<A, B> {
     Second(B),
 }
 
-impl<const LIGHTS: usize, A: Shade<LIGHTS>, B: Shade<LIGHTS>, R: Rule<LIGHTS>> Shade<LIGHTS> for Choose<A, B, R> {
+impl<const LIGHTS: usize, L: LightSource, A: Shade<LIGHTS, L>, B: Shade<LIGHTS, L>, R: Rule<LIGHTS, L>> Shade<LIGHTS, L>
+    for Choose<A, B, R>
+{
     type Facet = Either<A::Facet, B::Facet>;
     type Registers = Either<A::Registers, B::Registers>;
     const EMPTY: Self::Facet = Either::First(A::EMPTY);
 
-    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
+    fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
         if R::second(triangle, surface) {
             Either::Second(B::facet(triangle, surface))
         } else {

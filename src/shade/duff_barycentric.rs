@@ -4,11 +4,13 @@ use super::{flat::bend_at_centroid, lit, Intensity, Paint, Shade, Surface};
 use crate::{
     math::{
         gradient::Gradient,
+        interpolant::{Interpolant, Plane, Steps},
         power::Power,
         quadratic::{Differences, Quadratic},
         root::inverse_root,
     },
-    scan::picture::Triangle,
+    model::light::LightSource,
+    scan::triangle::Triangle,
 };
 
 /// Phong shading by a few additions and look-ups a pixel.
@@ -29,23 +31,23 @@ pub struct DuffBarycentric;
 
 /// A facet, 12 + 48 · LIGHTS bytes for one light or two, 36 + 24 · LIGHTS for more.
 #[derive(Clone, Copy, Debug)]
-pub struct Facet<const LIGHTS: usize> {
+pub struct Facet<const LIGHTS: usize, N: Interpolant = Plane> {
     anchor: [i16; 2],
     /// Whether a highlight can show on it.
     shiny: bool,
-    cosines: Cosines<LIGHTS>,
+    cosines: Cosines<LIGHTS, N>,
 }
 
 /// How the cosines run over a facet.
 #[derive(Clone, Copy, Debug)]
-enum Cosines<const LIGHTS: usize> {
+enum Cosines<const LIGHTS: usize, N> {
     /// Normals bend so little that the cosines are quadratics: for each light that with l times its intensity, Q30, and the
     /// height of that with h.
     Gentle([[Quadratic; 2]; LIGHTS]),
     /// Numerators and denominator apart.
     Steep {
-        /// For each light N·L (times its intensity) and N·H: at the anchor, and the increase to the right and down; Q24.
-        dots: [[[i32; 3]; 2]; LIGHTS],
+        /// For each light N·L (times its intensity) and N·H.
+        dots: [[N; 2]; LIGHTS],
         /// u, Q28.
         bend: Quadratic,
     },
@@ -53,50 +55,46 @@ enum Cosines<const LIGHTS: usize> {
 
 /// What is stepped along a line.
 #[derive(Clone, Copy, Debug)]
-pub struct Registers<const LIGHTS: usize> {
+pub struct Registers<const LIGHTS: usize, N> {
     shiny: bool,
-    cosines: Along<LIGHTS>,
+    cosines: Along<LIGHTS, N>,
 }
 
 /// Cosines along a line.
 #[derive(Clone, Copy, Debug)]
-enum Along<const LIGHTS: usize> {
+enum Along<const LIGHTS: usize, N> {
     Gentle([[Differences; 2]; LIGHTS]),
-    Steep {
-        /// `[value, step]` of N·L and N·H.
-        dots: [[[i32; 2]; 2]; LIGHTS],
-        bend: Differences,
-    },
+    Steep { dots: [[N; 2]; LIGHTS], bend: Differences },
 }
 
-impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
-    type Facet = Facet<LIGHTS>;
-    type Registers = Registers<LIGHTS>;
-    const EMPTY: Facet<LIGHTS> = Facet { anchor: [0; 2], shiny: false, cosines: Cosines::Gentle([[Quadratic::ZERO; 2]; LIGHTS]) };
+impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
+    type Facet = Facet<LIGHTS, L::Product>;
+    type Registers = Registers<LIGHTS, <L::Product as Interpolant>::Steps>;
+    const EMPTY: Self::Facet = Facet { anchor: [0; 2], shiny: false, cosines: Cosines::Gentle([[Quadratic::ZERO; 2]; LIGHTS]) };
 
-    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Facet<LIGHTS> {
+    fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
         let [p0, ..] = triangle.points();
         let [e01, e12, e20] = triangle.edges.map(u32::from);
         let edge = e01.max(e12).max(e20);
-        let shiny = is_shiny(triangle, edge, &surface.material.power);
+        let middles = triangle.middles();
+        let shiny = is_shiny(most(triangle, &middles), edge, &surface.material.power);
         let gradient = Gradient::new(triangle.points());
         let cosines = gradient
             .as_ref()
+            .filter(|_| !L::IN_SCENE)
             .and_then(|gradient| gentle(triangle, edge, shiny.then_some(&surface.material.power), gradient))
-            .unwrap_or_else(|| steep(triangle, edge, shiny, gradient.as_ref()));
+            .unwrap_or_else(|| steep(triangle, &middles, edge, shiny, gradient.as_ref()));
         Facet { anchor: Gradient::anchor(p0), shiny, cosines }
     }
 
     #[inline]
-    fn start(facet: &Facet<LIGHTS>, x: i32, y: i32) -> Registers<LIGHTS> {
+    fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
         let [ax, ay] = facet.anchor.map(i32::from);
         let (x, y) = (x - ax, y - ay);
         let cosines = match &facet.cosines {
             Cosines::Gentle(cosines) => Along::Gentle(cosines.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y)))),
             Cosines::Steep { dots, bend } => Along::Steep {
-                dots: dots.map(|planes| {
-                    planes.map(|[at, dx, dy]| [at.wrapping_add(dx.wrapping_mul(x)).wrapping_add(dy.wrapping_mul(y)), dx])
-                }),
+                dots: dots.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y))),
                 bend: bend.along(x, y),
             },
         };
@@ -104,8 +102,9 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
     }
 
     #[inline]
-    fn run<P>(r: Registers<LIGHTS>, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
+    fn run<P>(r: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         let power = &surface.material.power;
+        let lit = |product| lit(product, L::Product::FINER);
         match r.cosines {
             Along::Gentle(mut cosines) if r.shiny && shows(&cosines, pixels.len()) => {
                 for pixel in pixels {
@@ -132,10 +131,8 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
                     let mut intensity = Intensity::default();
                     for ([diffuse, specular], strength) in dots.iter_mut().zip(surface.intensities) {
                         // Q16 · Q15: cosines in Q31.
-                        intensity.diffuse += lit(diffuse[0]).wrapping_mul(root) >> 17;
-                        intensity.specular += (power.at(lit(specular[0]).wrapping_mul(root)) * u32::from(*strength)) >> 15;
-                        diffuse[0] = diffuse[0].wrapping_add(diffuse[1]);
-                        specular[0] = specular[0].wrapping_add(specular[1]);
+                        intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;
+                        intensity.specular += (power.at(lit(specular.next()).wrapping_mul(root)) * u32::from(*strength)) >> 15;
                     }
                     *pixel = paint.mix(intensity.limited(LIGHTS));
                 }
@@ -145,8 +142,7 @@ impl<const LIGHTS: usize> Shade<LIGHTS> for DuffBarycentric {
                     let root = inverse_root(bend.next());
                     let mut intensity = Intensity::default();
                     for [diffuse, _] in &mut dots {
-                        intensity.diffuse += lit(diffuse[0]).wrapping_mul(root) >> 17;
-                        diffuse[0] = diffuse[0].wrapping_add(diffuse[1]);
+                        intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;
                     }
                     *pixel = paint.dull(intensity.limited(LIGHTS).diffuse);
                 }
@@ -161,14 +157,10 @@ fn shows<const LIGHTS: usize>(cosines: &[[Differences; 2]; LIGHTS], pixels: usiz
     cosines.iter().any(|[_, height]| height.most(pixels as i32 - 1) > 0)
 }
 
-/// Whether the power can show anywhere on the triangle, given its largest edge constant.
+/// Whether the power can show anywhere on the triangle, given its largest edge constant and what its product with h may reach.
 ///
-/// N·H is nowhere more than at the best corner, and |N| nowhere less than by u = 2/3 of the largest edge constant, as
-/// Σ λi λj ≤ 1/3.
-fn is_shiny<const LIGHTS: usize>(triangle: &Triangle<'_, LIGHTS>, edge: u32, power: &Power) -> bool {
-    let [c0, c1, c2] = &triangle.corners;
-    let dots = c0.dots.iter().chain(&c1.dots).chain(&c2.dots);
-    let most = dots.map(|[_, specular]| *specular).max().unwrap_or(0);
+/// |N| is nowhere less than by u = 2/3 of the largest edge constant, as Σ λi λj ≤ 1/3.
+fn is_shiny(most: i32, edge: u32, power: &Power) -> bool {
     // Where 1/|N| may pass 2, every facet that faces a highlight at all counts.
     if most <= 0 || edge > 1 << 15 {
         return most > 0;
@@ -179,13 +171,29 @@ fn is_shiny<const LIGHTS: usize>(triangle: &Triangle<'_, LIGHTS>, edge: u32, pow
     (most as u32 + 2) * (inverse_root(bend as i32) + 4) > power.start() >> 2
 }
 
+/// At least as much as N·H reaches with any light, Q14.
+fn most<const LIGHTS: usize, L: LightSource>(triangle: &Triangle<'_, LIGHTS, L>, middles: &[[[i16; 2]; LIGHTS]; 3]) -> i32 {
+    let [c0, c1, c2] = &triangle.corners;
+    let dots = c0.dots.iter().chain(&c1.dots).chain(&c2.dots);
+    let most = dots.map(|[_, specular]| *specular).max().unwrap_or(0).into();
+    if !L::IN_SCENE {
+        // Linear in between.
+        return most;
+    }
+    // Above the corners by a third of the largest bow at most; a bow is four times what the middle is above the mean.
+    let middle = middles.iter().flatten().map(|[_, specular]| *specular).max().unwrap_or(0);
+    let least = c0.dots.iter().chain(&c1.dots).chain(&c2.dots).map(|[_, specular]| *specular).min().unwrap_or(0);
+    let bow = 4 * (i32::from(middle) - i32::from(least)).max(0);
+    (most + bow / 3).min(1 << 14)
+}
+
 /// The cosines as quadratics, heights where there is a power; none if normals bend too much for that.
-fn gentle<const LIGHTS: usize>(
-    triangle: &Triangle<'_, LIGHTS>,
+fn gentle<const LIGHTS: usize, L: LightSource>(
+    triangle: &Triangle<'_, LIGHTS, L>,
     edge: u32,
     power: Option<&Power>,
     gradient: &Gradient,
-) -> Option<Cosines<LIGHTS>> {
+) -> Option<Cosines<LIGHTS, L::Product>> {
     if edge > GENTLE || power.is_some_and(|power| ((edge * edge) >> 14) * u32::from(power.exponent()) > GENTLE_SHINY) {
         return None;
     }
@@ -228,23 +236,23 @@ const fn rise(e: i32) -> i32 {
 }
 
 /// Numerators and denominator, whatever the triangle; N·H only if it is shiny.
-fn steep<const LIGHTS: usize>(
-    triangle: &Triangle<'_, LIGHTS>,
+fn steep<const LIGHTS: usize, L: LightSource>(
+    triangle: &Triangle<'_, LIGHTS, L>,
+    middles: &[[[i16; 2]; LIGHTS]; 3],
     edge: u32,
     shiny: bool,
     gradient: Option<&Gradient>,
-) -> Cosines<LIGHTS> {
-    let mut dots = [[[0; 3]; 2]; LIGHTS];
-    let [c0, c1, c2] = &triangle.corners;
-    let plane = |[v0, v1, v2]: [i32; 3]| match gradient {
-        Some(gradient) => gradient.linear(v0, v1 - v0, v2 - v0, 10),
-        None => [((v0 + v1 + v2) << 10) / 3, 0, 0],
-    };
-    for ([diffuse, specular], ((v0, v1), v2)) in dots.iter_mut().zip(c0.dots.iter().zip(&c1.dots).zip(&c2.dots)) {
-        let ([l0, h0], [l1, h1], [l2, h2]) = (v0.map(i32::from), v1.map(i32::from), v2.map(i32::from));
-        *diffuse = plane([l0, l1, l2]);
+) -> Cosines<LIGHTS, L::Product> {
+    let mut dots = [[L::Product::ZERO; 2]; LIGHTS];
+    let ([c0, c1, c2], [m01, m12, m20]) = (&triangle.corners, middles);
+    let corners = c0.dots.iter().zip(&c1.dots).zip(&c2.dots);
+    let middles = m01.iter().zip(m12).zip(m20);
+    for (([diffuse, specular], ((v0, v1), v2)), ((m01, m12), m20)) in dots.iter_mut().zip(corners).zip(middles) {
+        let [[l0, h0], [l1, h1], [l2, h2]] = [*v0, *v1, *v2].map(|dots| dots.map(i32::from));
+        let [[l01, h01], [l12, h12], [l20, h20]] = [*m01, *m12, *m20].map(|dots| dots.map(i32::from));
+        *diffuse = L::Product::through(gradient, [l0, l1, l2], [l01, l12, l20]);
         if shiny {
-            *specular = plane([h0, h1, h2]);
+            *specular = L::Product::through(gradient, [h0, h1, h2], [h01, h12, h20]);
         }
     }
     let bend = gradient

@@ -1,7 +1,14 @@
 //! Intensities at the corners, linear in between.
 
 use super::{lit, Intensity, Paint, Shade, Surface};
-use crate::{math::gradient::Gradient, scan::picture::Triangle};
+use crate::{
+    math::{
+        gradient::Gradient,
+        interpolant::{Interpolant, Plane, Slope, Steps},
+    },
+    model::light::LightSource,
+    scan::triangle::Triangle,
+};
 
 /// Gouraud shading: the illumination at the corners, interpolated over the screen; diffuse and specular apart, so that they
 /// saturate after adding.
@@ -14,53 +21,38 @@ pub struct Gouraud;
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
     anchor: [i16; 2],
-    planes: [[i32; 3]; 2],
+    planes: [Plane; 2],
 }
 
-/// Diffuse and specular, each with its step to the right, Q24.
-#[derive(Clone, Copy, Debug)]
-pub struct Registers {
-    diffuse: i32,
-    diffuse_step: i32,
-    specular: i32,
-    specular_step: i32,
-}
-
-impl<const LIGHTS: usize> Shade<LIGHTS> for Gouraud {
+impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for Gouraud {
     type Facet = Facet;
-    type Registers = Registers;
-    const EMPTY: Facet = Facet { anchor: [0; 2], planes: [[0; 3]; 2] };
+    /// Diffuse and specular, Q24.
+    type Registers = [Slope; 2];
+    const EMPTY: Facet = Facet { anchor: [0; 2], planes: [Plane::ZERO; 2] };
 
-    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Facet {
+    fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Facet {
         let points = triangle.points();
         let [c0, c1, c2] = triangle.corners.map(|corner| at_corner(&corner.dots, surface));
         let gradient = Gradient::new(points);
         let plane = |which: fn(Intensity) -> u32| {
-            let [v0, v1, v2] = [c0, c1, c2].map(|intensity| which(intensity) as i32);
-            match &gradient {
-                Some(gradient) => gradient.linear(v0, v1 - v0, v2 - v0, 10),
-                None => [((v0 + v1 + v2) << 10) / 3, 0, 0],
-            }
+            Plane::through(gradient.as_ref(), [c0, c1, c2].map(|intensity| which(intensity) as i32), [0; 3])
         };
         let [p0, ..] = points;
         Facet { anchor: Gradient::anchor(p0), planes: [plane(|c| c.diffuse), plane(|c| c.specular)] }
     }
 
     #[inline]
-    fn start(facet: &Facet, x: i32, y: i32) -> Registers {
+    fn start(facet: &Facet, x: i32, y: i32) -> [Slope; 2] {
         let [ax, ay] = facet.anchor.map(i32::from);
-        let [[d, dx, dy], [s, sx, sy]] = facet.planes;
-        let at = |v: i32, vx: i32, vy: i32| v.wrapping_add(vx.wrapping_mul(x - ax)).wrapping_add(vy.wrapping_mul(y - ay));
-        Registers { diffuse: at(d, dx, dy), diffuse_step: dx, specular: at(s, sx, sy), specular_step: sx }
+        facet.planes.map(|plane| plane.along(x - ax, y - ay))
     }
 
     #[inline]
-    fn run<P>(mut r: Registers, _: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
+    fn run<P>([mut diffuse, mut specular]: [Slope; 2], _: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
+        let lit = |value| lit(value, Plane::FINER) >> 2;
         for pixel in pixels {
             // A clamp at the top is not needed: the corners are below it, and rounding cannot pass them by a whole step.
-            *pixel = paint.mix(Intensity { diffuse: lit(r.diffuse) >> 2, specular: lit(r.specular) >> 2 });
-            r.diffuse = r.diffuse.wrapping_add(r.diffuse_step);
-            r.specular = r.specular.wrapping_add(r.specular_step);
+            *pixel = paint.mix(Intensity { diffuse: lit(diffuse.next()), specular: lit(specular.next()) });
         }
     }
 }

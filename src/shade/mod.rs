@@ -1,6 +1,12 @@
 //! How a visible triangle gets its light: one file for each method, behind one trait.
 
-use crate::{model::material::Material, scan::picture::Triangle};
+use crate::{
+    model::{
+        light::{Light, LightSource},
+        material::Material,
+    },
+    scan::triangle::Triangle,
+};
 
 pub mod choose;
 pub mod duff_barycentric;
@@ -58,7 +64,7 @@ pub trait Paint<P> {
 ///
 /// A facet is set up once, when its triangle is first seen. Starting anywhere gives the very registers that stepping there
 /// would give (modulo 2³²), so that lines and pixels may be skipped at no cost.
-pub trait Shade<const LIGHTS: usize> {
+pub trait Shade<const LIGHTS: usize, L: LightSource = Light> {
     /// What shading needs of a visible triangle.
     type Facet: Copy + core::fmt::Debug;
     /// What it steps from pixel to pixel.
@@ -67,7 +73,7 @@ pub trait Shade<const LIGHTS: usize> {
     const EMPTY: Self::Facet;
 
     /// Sets up a triangle.
-    fn facet(triangle: &Triangle<'_, LIGHTS>, surface: &Surface<'_, LIGHTS>) -> Self::Facet;
+    fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet;
 
     /// The registers at pixel x of line y.
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers;
@@ -76,8 +82,8 @@ pub trait Shade<const LIGHTS: usize> {
     fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>);
 }
 
-/// A dot product in Q24, clamped at 0, as Q16.
+/// A product with so many bits more than Q14, clamped at 0, as Q16.
 #[inline(always)]
-const fn lit(dot: i32) -> u32 {
-    ((dot & !(dot >> 31)) >> 8) as u32
+const fn lit(product: i32, finer: i32) -> u32 {
+    ((product & !(product >> 31)) >> (finer - 2)) as u32
 }

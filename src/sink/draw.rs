@@ -3,9 +3,9 @@
 use embedded_graphics::{draw_target::DrawTarget, geometry::Size, pixelcolor::PixelColor, primitives::Rectangle};
 
 use super::ink::Ink;
-use crate::{scanner::Lines, shade::Shade};
+use crate::{model::light::LightSource, scanner::Lines, shade::Shade};
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIVE, S, LIGHTS> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, ACTIVE, S, LIGHTS, L> {
     /// Draws the whole picture, shading into the row again and again, by one
     /// [`fill_contiguous`](DrawTarget::fill_contiguous). A row shorter than the picture cuts off its right side.
     ///
@@ -40,8 +40,8 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Lines<'_, ACTIV
 }
 
 /// The pixels of a picture, row after row.
-struct Pixels<'r, 'l, P, F, const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> {
-    lines: &'r mut Lines<'l, ACTIVE, S, LIGHTS>,
+struct Pixels<'r, 'l, P, F, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> {
+    lines: &'r mut Lines<'l, ACTIVE, S, LIGHTS, L>,
     finish: F,
     row: &'r mut [P],
     x: usize,
@@ -49,8 +49,8 @@ struct Pixels<'r, 'l, P, F, const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS:
     y: u16,
 }
 
-impl<P: Ink, F: FnMut(u16, &mut [P]), const ACTIVE: usize, S: Shade<LIGHTS>, const LIGHTS: usize> Iterator
-    for Pixels<'_, '_, P, F, ACTIVE, S, LIGHTS>
+impl<P: Ink, F: FnMut(u16, &mut [P]), const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Iterator
+    for Pixels<'_, '_, P, F, ACTIVE, S, LIGHTS, L>
 {
     type Item = P;
 

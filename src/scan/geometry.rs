@@ -1,0 +1,154 @@
+//! Where the triangles of a frame are.
+
+use embedded_graphics::primitives::Rectangle;
+
+use super::{
+    bucket::{Kept, Starting, TriangleId},
+    vertex::Vertex,
+};
+use crate::{
+    math::weights::Weights,
+    model::{material::Material, mesh::Mesh},
+};
+
+/// Where a triangle comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Source {
+    /// Number of the object, in the order of addition to the frame, those out of sight included.
+    pub object: u16,
+    /// Number of the triangle in its mesh.
+    pub triangle: u16,
+}
+
+/// An object of a frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Object<'m> {
+    pub(crate) mesh: &'m Mesh<'m>,
+    /// Number in the order of addition, and among those in sight.
+    pub(crate) number: u16,
+    pub(crate) place: u16,
+    pub(crate) first_vertex: u16,
+    pub(crate) first_triangle: u16,
+    pub(crate) first_material: u16,
+}
+
+/// A triangle made by clipping.
+#[derive(Clone, Copy, Debug)]
+pub struct Made {
+    /// The triangle that it is a part of.
+    pub(crate) whole: TriangleId,
+    /// Numbers of its corners among the frame's vertices.
+    pub(crate) corners: [u16; 3],
+    pub(crate) edges: [u16; 3],
+    /// Where they are in the whole.
+    pub(crate) weights: [Weights; 3],
+}
+
+/// What of a frame is seen by the scan: projected vertices, the triangles that face the eye by the line on which they start,
+/// and where these come from. A view: copying it copies no data.
+#[derive(Clone, Copy, Debug)]
+pub struct Geometry<'f, const LIGHTS: usize = 1> {
+    pub(crate) viewport: Rectangle,
+    pub(crate) vertices: &'f [Vertex<LIGHTS>],
+    /// For each line, one more than the place of the first of the kept triangles that start there, or 0.
+    pub(crate) heads: &'f [u16],
+    pub(crate) kept: &'f [Kept],
+    pub(crate) objects: &'f [Object<'f>],
+    pub(crate) made: &'f [Made],
+}
+
+impl<'f, const LIGHTS: usize> Geometry<'f, LIGHTS> {
+    pub(crate) fn width(&self) -> i32 {
+        self.viewport.size.width as i32
+    }
+
+    pub(crate) fn height(&self) -> u16 {
+        self.viewport.size.height as u16
+    }
+
+    pub(crate) fn starting(&self, line: u16) -> Starting<'f> {
+        Starting { kept: self.kept, next: self.heads.get(usize::from(line)).copied().unwrap_or(0) }
+    }
+
+    /// The mesh's triangle that this one is, or is a part of.
+    #[inline]
+    pub(crate) fn whole(&self, id: TriangleId) -> TriangleId {
+        self.made.get(usize::from(TriangleId::MADE.wrapping_sub(id.0))).map_or(id, |made| made.whole)
+    }
+
+    /// The object of a mesh's triangle, and the number of the triangle in the mesh.
+    #[inline]
+    pub(crate) fn object(&self, whole: TriangleId) -> Option<(&'f Object<'f>, u16)> {
+        let object = match self.objects {
+            [only] => only,
+            many => many.iter().rev().find(|object| object.first_triangle <= whole.0)?,
+        };
+        Some((object, whole.0.wrapping_sub(object.first_triangle)))
+    }
+
+    /// Where a triangle comes from.
+    pub(crate) fn source(&self, id: TriangleId) -> Option<Source> {
+        let (object, triangle) = self.object(self.whole(id))?;
+        Some(Source { object: object.number, triangle })
+    }
+
+    /// The material with that number among those of all objects.
+    #[inline]
+    pub(crate) fn material(&self, look: u16) -> Option<&'f Material> {
+        let object = self.objects.iter().rev().find(|object| object.first_material <= look)?;
+        object.mesh.data().materials.get(usize::from(look - object.first_material))
+    }
+
+    /// A triangle's numbers.
+    #[inline]
+    pub(crate) fn numbers(&self, id: TriangleId) -> Option<Numbers<'f>> {
+        let made = self.made.get(usize::from(TriangleId::MADE.wrapping_sub(id.0)));
+        let (object, triangle) = self.object(made.map_or(id, |made| made.whole))?;
+        let data = object.mesh.data();
+        let index = usize::from(triangle);
+        let (corners, edges) = match made {
+            Some(made) => (made.corners, &made.edges),
+            None => {
+                let corners = *data.triangles.get(index)?;
+                (corners.map(|corner| corner.wrapping_add(object.first_vertex)), data.edges.get(index)?)
+            }
+        };
+        Some(Numbers { object, triangle, part: made, corners, edges })
+    }
+
+    /// A triangle's corners.
+    #[inline]
+    pub(crate) fn corners(&self, id: TriangleId) -> Option<[&'f Vertex<LIGHTS>; 3]> {
+        let [a, b, c] = self.numbers(id)?.corners;
+        Some([self.vertex(a)?, self.vertex(b)?, self.vertex(c)?])
+    }
+
+    /// A vertex by its number in the frame.
+    #[inline]
+    pub(crate) fn vertex(&self, number: u16) -> Option<&'f Vertex<LIGHTS>> {
+        self.vertices.get(usize::from(number))
+    }
+}
+
+/// Where a triangle is to be found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Numbers<'f> {
+    pub(crate) object: &'f Object<'f>,
+    /// Of the mesh's triangle that it is, or is a part of.
+    pub(crate) triangle: u16,
+    /// What was made of that.
+    pub(crate) part: Option<&'f Made>,
+    /// Its corners among the frame's vertices.
+    pub(crate) corners: [u16; 3],
+    /// The edge constants of edges 01, 12, 20, Q15.
+    pub(crate) edges: &'f [u16; 3],
+}
+
+impl Numbers<'_> {
+    /// The number of its material among those of all objects.
+    #[inline]
+    pub(crate) fn look(&self) -> u16 {
+        let material = self.object.mesh.material_number(self.triangle).unwrap_or(0);
+        self.object.first_material.wrapping_add(material)
+    }
+}
