@@ -67,6 +67,8 @@ pub(crate) struct Counts {
     pub(crate) frames: Vec<Count>,
     /// Each line of all frames.
     pub(crate) lines: Vec<Count>,
+    /// Each set-up of a facet, start of a span and shading of a span, by kind, in order; where these are marked, and not frames.
+    pub(crate) parts: Vec<(String, Count)>,
     /// The sum of all frames, by stage.
     pub(crate) stages: Vec<(&'static str, Count)>,
     /// The sum of all frames, by the address of the instruction.
@@ -84,6 +86,7 @@ impl Counts {
             match (*kind, place) {
                 ("frame", []) => counts.frames.push(count),
                 ("line", [_frame]) => counts.lines.push(count),
+                ("part", [kind]) => counts.parts.push(((*kind).to_owned(), count)),
                 ("stage", [stage]) => {
                     let name = STAGES.get(stage.parse::<usize>()?).map_or("other", |stage| stage.name);
                     if count != Count::default() {
@@ -94,7 +97,7 @@ impl Counts {
                 _ => bail!("not a count: {line}"),
             }
         }
-        ensure!(!counts.frames.is_empty(), "the firmware marked no frame");
+        ensure!(!counts.frames.is_empty() || !counts.parts.is_empty(), "the firmware marked no frame");
         Ok(counts)
     }
 

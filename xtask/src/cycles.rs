@@ -1,5 +1,6 @@
 //! What rendering costs: instructions, cycles, RAM, stack and code, on each target, and that all render the same.
 
+use crate::costs;
 use crate::count::{self, Count, Counts};
 use crate::elf::Elf;
 use crate::firmware::{self, Target, MEASURE, METHOD, SCENE, TARGETS};
@@ -21,12 +22,18 @@ pub(crate) struct Arguments {
     /// Print one JSON object a line.
     #[arg(long)]
     json: bool,
+    /// What each shading method costs for a facet, a line and a pixel, with the tables of break-even sizes; takes long.
+    #[arg(long, conflicts_with_all = ["json", "scene", "target", "functions"])]
+    all: bool,
     /// The scene.
     #[arg(long, default_value = SCENE)]
     scene: String,
     /// The shading method.
     #[arg(long, default_value = METHOD)]
     method: String,
+    /// With --all, measure these methods alone.
+    #[arg(long, value_delimiter = ',', requires = "all")]
+    methods: Vec<String>,
     /// Measure this target alone, such as thumbv6m-none-eabi.
     #[arg(long)]
     target: Option<String>,
@@ -49,7 +56,7 @@ impl Report {
         let mut report = Report::default();
         for line in text.lines() {
             match line.split(' ').collect::<Vec<_>>()[..] {
-                ["frame", _, _] => {}
+                ["frame", _, _] | ["run", _] => {}
                 ["checksum", sum] => report.checksum = sum.to_owned(),
                 ["mesh", bytes] => report.mesh_bytes = bytes.parse()?,
                 ["ram", name, bytes] => report.ram.push((name.to_owned(), bytes.parse()?)),
@@ -68,21 +75,26 @@ impl Report {
 }
 
 /// One target's figures.
-struct Measured {
+pub(crate) struct Measured {
     target: &'static Target,
     elf: Elf,
     report: Report,
-    counts: Counts,
+    pub(crate) counts: Counts,
 }
 
 impl Measured {
-    fn new(target: &'static Target, scene: &str, method: &str) -> Result<Measured> {
+    /// Builds, runs and counts.
+    ///
+    /// # Errors
+    /// If any of that fails.
+    pub(crate) fn new(target: &'static Target, scene: &str, method: &str) -> Result<Measured> {
         let elf = firmware::build(MEASURE, target.triple, &["firmware", scene, method])?;
         let (said, counts) = count::run(target, &elf)?;
         Ok(Measured { target, elf, report: Report::parse(&said)?, counts })
     }
 
-    fn code_bytes(&self) -> u64 {
+    /// All that is in flash, without the mesh.
+    pub(crate) fn code_bytes(&self) -> u64 {
         self.elf.flash_bytes().saturating_sub(self.report.mesh_bytes)
     }
 
@@ -99,6 +111,9 @@ impl Measured {
 /// `cargo xtask cycles`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     install::ensure(&[Need::FirmwareCompiler, Need::Qemu])?;
+    if arguments.all {
+        return costs::run(&arguments.methods);
+    }
     let (scene, method) = (&arguments.scene, &arguments.method);
     let targets = TARGETS.iter().filter(|target| arguments.target.as_deref().is_none_or(|wanted| wanted == target.triple));
     let measured = targets.map(|target| Measured::new(target, scene, method)).collect::<Result<Vec<_>>>()?;
@@ -125,7 +140,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 /// # Errors
 /// As [`run`] does: above all, if two targets render different pixels.
 pub(crate) fn check() -> Result<()> {
-    run(&Arguments { json: false, scene: SCENE.into(), method: METHOD.into(), target: None, functions: 0 })
+    run(&Arguments {
+        json: false,
+        scene: SCENE.into(),
+        method: METHOD.into(),
+        all: false,
+        methods: Vec::new(),
+        target: None,
+        functions: 0,
+    })
 }
 
 /// The table of the standard scene by the default method, for the README.
@@ -140,6 +163,14 @@ pub(crate) fn summary() -> Result<String> {
 
 /// The checksum of the same frames, rendered by this machine.
 fn host(scene: &str, method: &str) -> Result<String> {
+    Ok(Report::parse(&on_this_machine(scene, method)?)?.checksum)
+}
+
+/// What the measuring program says on this machine.
+///
+/// # Errors
+/// If it cannot be built, or fails.
+pub(crate) fn on_this_machine(scene: &str, method: &str) -> Result<String> {
     progress(format!("rendering on this machine ({})", std::env::consts::ARCH));
     let mut command = project::cargo();
     command.args(["build", "--quiet", "--release", "--bin", "host", "--features", &format!("host,{scene},{method}")]);
@@ -147,7 +178,7 @@ fn host(scene: &str, method: &str) -> Result<String> {
     command.arg("--target-dir").arg(project::target()?.join("firmware"));
     let files = process::build(&mut command)?;
     let program = files.iter().find(|file| file.file_stem().is_some_and(|name| name == "host")).context("nothing was built")?;
-    Ok(Report::parse(&process::output(&mut Command::new(program))?)?.checksum)
+    process::output(&mut Command::new(program))
 }
 
 fn print_json(measured: &[Measured], host: &str, scene: &str, method: &str) {

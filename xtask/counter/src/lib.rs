@@ -14,6 +14,9 @@
 //! | frame | `mov r9, r9` | `slti x0, x0, 1` | counting, for a new frame |
 //! | line | `mov r10, r10` | `slti x0, x0, 2` | counting, for a new line of that frame |
 //! | pause | `mov r11, r11` | `slti x0, x0, 3` | not counting |
+//! | facet | `mov r12, r12` | `slti x0, x0, 4` | counting, for the set-up of a facet |
+//! | start | `mov lr, lr` | `slti x0, x0, 5` | counting, for the start of a span |
+//! | run | `mov sp, sp` | `slti x0, x0, 6` | counting, for the shading of a span |
 //!
 //! (`mov r8, r8` is left alone: compilers for ARMv6-M pad with it.)
 //!
@@ -22,6 +25,7 @@
 //! ```text
 //! frame INSTRUCTIONS CYCLES               in order
 //! line FRAME INSTRUCTIONS CYCLES          in order
+//! part KIND INSTRUCTIONS CYCLES           in order; KIND is facet, start or run
 //! stage STAGE INSTRUCTIONS CYCLES         the sum of all frames; the last stage is what ran before any was known
 //! pc ADDRESS INSTRUCTIONS CYCLES          the sum of all frames, by rising address
 //! ```
@@ -60,6 +64,8 @@ enum Mark {
     Frame,
     Line,
     Pause,
+    /// A part of the shading method, by name.
+    Part(&'static str),
 }
 
 /// One instruction of the program.
@@ -85,6 +91,7 @@ struct Counter {
 
     counting: bool,
     in_line: bool,
+    in_part: bool,
     stage: usize,
     /// The instruction before: whether it branched shows only at the next one.
     last: Option<usize>,
@@ -92,6 +99,7 @@ struct Counter {
     frames: Vec<Count>,
     /// With the number of the frame.
     lines: Vec<(usize, Count)>,
+    parts: Vec<(&'static str, Count)>,
     stages: [Count; STAGES],
 }
 
@@ -106,10 +114,12 @@ impl Counter {
             known: BTreeMap::new(),
             counting: false,
             in_line: false,
+            in_part: false,
             stage: STAGES - 1,
             last: None,
             frames: Vec::new(),
             lines: Vec::new(),
+            parts: Vec::new(),
             stages: [Count::ZERO; STAGES],
         }
     }
@@ -148,6 +158,9 @@ impl Counter {
             (false, 0x46c9, _) | (true, _, 0x0010_2013) => Some(Mark::Frame),
             (false, 0x46d2, _) | (true, _, 0x0020_2013) => Some(Mark::Line),
             (false, 0x46db, _) | (true, _, 0x0030_2013) => Some(Mark::Pause),
+            (false, 0x46e4, _) | (true, _, 0x0040_2013) => Some(Mark::Part("facet")),
+            (false, 0x46f6, _) | (true, _, 0x0050_2013) => Some(Mark::Part("start")),
+            (false, 0x46ed, _) | (true, _, 0x0060_2013) => Some(Mark::Part("run")),
             _ => None,
         };
         let cost = if self.cycles { m0plus::cost(half) } else { m0plus::Cost::default() };
@@ -176,11 +189,13 @@ impl Counter {
             }
             Some(Mark::Frame) => self.frames.push(Count::ZERO),
             Some(Mark::Line) => self.lines.push((self.frames.len().saturating_sub(1), Count::ZERO)),
+            Some(Mark::Part(kind)) => self.parts.push((kind, Count::ZERO)),
             Some(Mark::Pause) => {}
         }
         if let Some(mark) = mark {
             self.counting = mark != Mark::Pause;
             self.in_line = mark == Mark::Line;
+            self.in_part = matches!(mark, Mark::Part(_));
         }
     }
 
@@ -197,6 +212,9 @@ impl Counter {
         if let Some((_, line)) = self.lines.last_mut().filter(|_| self.in_line) {
             line.add(count);
         }
+        if let Some((_, part)) = self.parts.last_mut().filter(|_| self.in_part) {
+            part.add(count);
+        }
     }
 
     /// The result, as the head of this file describes it.
@@ -207,6 +225,9 @@ impl Counter {
         }
         for (frame, Count { instructions, cycles }) in &self.lines {
             writeln!(text, "line {frame} {instructions} {cycles}")?;
+        }
+        for (kind, Count { instructions, cycles }) in &self.parts {
+            writeln!(text, "part {kind} {instructions} {cycles}")?;
         }
         for (stage, Count { instructions, cycles }) in self.stages.iter().enumerate() {
             writeln!(text, "stage {stage} {instructions} {cycles}")?;

@@ -3,7 +3,13 @@
 //! One scene and one method are compiled in, chosen by features, as the size of the code is measured too.
 #![no_std]
 
+#[cfg(feature = "host")]
+extern crate std;
+
 mod checksum;
+pub mod mark;
+#[cfg(feature = "parts")]
+mod parts;
 mod scene;
 
 pub use checksum::Checksum;

@@ -9,15 +9,15 @@
 //! full STEP                something had no room in this frame
 //! stack BYTES              the deepest stack below `main`
 //! ```
-//! It links only if no path leads to a panic.
+//! With the feature `parts` the parts of the shading method are marked instead of frames and lines. It links only if no path
+//! leads to a panic.
 #![no_std]
 #![no_main]
 
-mod mark;
 mod semihosting;
 mod stack;
 
-use beamshade_measure::{Checksum, Scene};
+use beamshade_measure::{mark, Checksum, Scene};
 use semihosting::{print, Word::*};
 
 static mut SCENE: Scene = Scene::new();
@@ -32,12 +32,16 @@ fn main() -> ! {
     let mut all = Checksum::new();
     for step in 0..Scene::FRAMES {
         let mut sum = Checksum::new();
-        mark::frame();
+        if !cfg!(feature = "parts") {
+            mark::frame();
+        }
         let mut fits = scene.prepare(step);
         mark::pause();
         let (mut lines, row) = scene.lines();
         for y in 0..Scene::LINES {
-            mark::line();
+            if !cfg!(feature = "parts") {
+                mark::line();
+            }
             let line = lines.line(y, row);
             mark::pause();
             fits &= line.dropped == 0;
