@@ -1,15 +1,73 @@
-//! How far the library's pictures are from the reference's, on the standard scenes.
+//! How far the library's pictures are from the reference's, on the standard scenes and by every method.
 
-use anyhow::Result;
-use beamshade::{Ink, Shade};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use anyhow::{anyhow, Result};
+use beamshade::{DuffBarycentric, Flat, Gouraud, Ink, Light, SceneLight, Shade};
 use embedded_graphics::pixelcolor::{Gray8, Rgb565, Rgb888};
 
 use crate::{
     library::{self, Meshes},
     reference::{render, Material, Mesh, Normals, Options, Scene},
-    scenes::{self, FRAMES, ORANGE, WHITE},
-    Format, Measures,
+    scenes::{self, Case, Illumination, FRAMES, ORANGE, WHITE},
+    Format, Measures, Picture,
 };
+
+/// Every shading method, the best first.
+pub const METHODS: &[Method] =
+    &[Method::of::<DuffBarycentric>("duff-barycentric"), Method::of::<Gouraud>("gouraud"), Method::of::<Flat>("flat")];
+
+/// A shading method by name.
+#[derive(Clone, Copy, Debug)]
+pub struct Method {
+    /// Its name in tables and commands.
+    pub name: &'static str,
+    /// [`standard`] by this method.
+    pub standard: fn(&Mesh, Progress<'_>) -> Result<Vec<Row>>,
+    /// Draws a scene with one light in white, by the kind of its light: directional, or in the scene.
+    gray: [fn(&Scene<'_>, &Meshes) -> Result<Picture<Gray8>>; 2],
+    /// Draws a scene with one directional light in colour.
+    pub color: fn(&Scene<'_>, &Meshes) -> Result<Picture<Rgb888>>,
+}
+
+/// Is told the number of each frame before it is drawn.
+pub type Progress<'p> = &'p mut dyn FnMut(u32);
+
+impl Method {
+    const fn of<S: Shade<1> + Shade<1, SceneLight>>(name: &'static str) -> Self {
+        Self {
+            name,
+            standard: |mesh, progress| standard::<S>(mesh, progress),
+            gray: [library::draw::<Gray8, S, 1, Light>, library::draw::<Gray8, S, 1, SceneLight>],
+            color: library::draw::<Rgb888, S, 1, Light>,
+        }
+    }
+
+    /// Draws a scene with one light of that kind in white.
+    ///
+    /// # Errors
+    ///
+    /// As [`library::draw`].
+    pub fn draw(&self, light: Illumination, scene: &Scene<'_>, meshes: &Meshes) -> Result<Picture<Gray8>> {
+        let [directional, in_scene] = self.gray;
+        match light {
+            Illumination::Directional => directional(scene, meshes),
+            Illumination::Point => in_scene(scene, meshes),
+        }
+    }
+
+    /// The method of that name.
+    ///
+    /// # Errors
+    ///
+    /// When there is none; the error names those that there are.
+    pub fn named(name: &str) -> Result<&'static Self> {
+        let names = || METHODS.iter().map(|method| method.name).collect::<Vec<_>>().join(", ");
+        let found = METHODS.iter().find(|method| method.name == name);
+        found.ok_or_else(|| anyhow!("there is no method {name:?}; there are {}", names()))
+    }
+}
 
 /// What the library is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,12 +147,67 @@ impl Comparison {
         let normals = if self.truth == Truth::Perspective { Normals::PerspectiveCorrect } else { Normals::ScreenLinear };
         let snap = (self.truth == Truth::Quantized).then_some(256.0);
         let reference = render(scene, Options { normals, snap });
-        let drawn = library::draw::<P, S, 1>(scene, meshes)?;
+        let drawn = library::draw::<P, S, 1, Light>(scene, meshes)?;
         let rounded = reference.round::<R>();
         let measures = Measures::between(&rounded, &drawn, &scene.triangles());
         let rounding = Measures::between(&rounded, &reference.round::<P>(), &scene.triangles()).psnr_db;
         Ok(Row { output, truth: self.truth, frame: self.frame, measures, rounding_db: rounding.is_finite().then_some(rounding) })
     }
+}
+
+/// What a method makes of a case.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The case.
+    pub case: Case,
+    /// The method's name.
+    pub method: &'static str,
+    /// Each frame in Gray8 against the ideal scene.
+    pub rows: Vec<Row>,
+}
+
+/// Measures methods on cases, two cases at a time; the outcomes stand in the order of the cases, and in each as the methods do.
+///
+/// `progress` is called before each case.
+///
+/// # Errors
+///
+/// When a mesh cannot be read or does not fit the library's formats, or the library lacks a case's kind of light.
+pub fn compare(cases: &[Case], methods: &[&Method], progress: impl Fn(Case) + Sync) -> Result<Vec<Outcome>> {
+    let waiting = Mutex::new(cases.iter().enumerate());
+    let next = || waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let work = || -> Result<Vec<_>> {
+        let mut done = Vec::new();
+        while let Some((number, &case)) = next() {
+            progress(case);
+            done.push((number, outcomes(case, methods)?));
+        }
+        Ok(done)
+    };
+    let mut done = thread::scope(|scope| {
+        let other = scope.spawn(work);
+        let mut done = work()?;
+        done.extend(other.join().map_err(|_| anyhow!("a case could not be measured"))??);
+        anyhow::Ok(done)
+    })?;
+    done.sort_by_key(|&(number, _)| number);
+    Ok(done.into_iter().flat_map(|(_, outcomes)| outcomes).collect())
+}
+
+/// A case by several methods, the reference of each frame drawn once.
+fn outcomes(case: Case, methods: &[&Method]) -> Result<Vec<Outcome>> {
+    let mesh = case.subject.mesh()?;
+    let meshes = Meshes::of(&case.scene(&mesh, 0))?;
+    let mut outcomes: Vec<_> = methods.iter().map(|method| Outcome { case, method: method.name, rows: Vec::new() }).collect();
+    for frame in case.subject.frames() {
+        let scene = case.scene(&mesh, frame);
+        let reference = render(&scene, Options::default()).round::<Gray8>();
+        for (method, outcome) in methods.iter().zip(&mut outcomes) {
+            let measures = Measures::between(&reference, &method.draw(case.light, &scene, &meshes)?, &scene.triangles());
+            outcome.rows.push(Row { output: "gray8", truth: Truth::Ideal, frame, measures, rounding_db: None });
+        }
+    }
+    Ok(outcomes)
 }
 
 /// The worst of several frames, measure by measure, but for `wrong_owner` and `wrong_neighbour`, which are sums.

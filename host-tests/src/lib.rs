@@ -1,7 +1,7 @@
 //! The independent truth that the fixed-point library is tested against.
 //!
 //! - [`reference`](mod@reference) draws a scene in f64, with nothing quantised and nothing approximated;
-//! - [`scenes`] holds the standard scenes T880 and T5560;
+//! - [`scenes`] holds the standard scenes T880 and T5560, and the cases that methods are compared in;
 //! - [`Picture`] is what either renderer draws: colours, and the [`Owner`] of each pixel;
 //! - [`Format`] takes colours to the levels of an output format and back;
 //! - [`Measures`] tells how far two pictures are apart;

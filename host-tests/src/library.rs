@@ -1,13 +1,15 @@
 //! The library's renderings of the reference's scenes.
 
-use anyhow::{ensure, Context, Result};
-use beamshade::{Background, Camera, Color, Frame, Ink, Light, Lines, Pose, Rotation, Scanner, Shade, Turn};
+use anyhow::{bail, ensure, Context, Result};
+use beamshade::{
+    Background, Camera, Color, Frame, Ink, Light, LightSource, Lines, Pose, Rotation, Scanner, SceneLight, Shade, Turn,
+};
 use beamshade_mesh::{Model, Part, Quantized, Surface};
 use embedded_graphics::geometry::Size;
 use glam::{DMat3, DVec3};
 
 use crate::{
-    reference::{self, Scene},
+    reference::{self, Scene, Source, Viewer},
     Owner, Picture,
 };
 
@@ -19,7 +21,7 @@ const OBJECTS: usize = 16;
 const MADE: usize = 4096;
 const ACTIVE: usize = 2048;
 
-type BigFrame<'m, const LIGHTS: usize> = Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE>;
+type BigFrame<'m, const LIGHTS: usize, L> = Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE, L>;
 
 /// The meshes of a scene in the library's number formats.
 #[derive(Debug)]
@@ -101,37 +103,65 @@ fn camera(camera: &reference::Camera) -> Camera {
     Camera::new(Size::new(camera.width as u32, camera.height as u32))
         .field_of_view(turn)
         .near(camera.near as f32)
-        .at(camera.position.to_array().map(|c| c as f32))
+        .at(single(camera.position))
         .turned(rotation(camera.rotation))
+}
+
+impl TryFrom<reference::Light> for Light {
+    type Error = anyhow::Error;
+
+    fn try_from(light: reference::Light) -> Result<Self> {
+        match (light.source, light.viewer) {
+            (Source::Direction(towards), Viewer::Infinity) => {
+                Ok(Self::directional(single(towards)).intensity(light.intensity as f32))
+            }
+            other => bail!("no light of the library's is {other:?}"),
+        }
+    }
+}
+
+impl TryFrom<reference::Light> for SceneLight {
+    type Error = anyhow::Error;
+
+    fn try_from(light: reference::Light) -> Result<Self> {
+        let there = match (light.source, light.viewer) {
+            (Source::Direction(towards), Viewer::Eye) => Self::directional(single(towards)),
+            (Source::Point(place), Viewer::Eye) => Self::point(single(place)),
+            other => bail!("no light of the library's is {other:?}"),
+        };
+        Ok(there.intensity(light.intensity as f32))
+    }
+}
+
+/// A kind of light that the reference's can be turned into, if they are of that kind.
+pub trait FromReference: LightSource + TryFrom<reference::Light, Error = anyhow::Error> {}
+
+impl<L: LightSource + TryFrom<reference::Light, Error = anyhow::Error>> FromReference for L {}
+
+fn single(vector: DVec3) -> [f32; 3] {
+    vector.to_array().map(|c| c as f32)
 }
 
 /// Fills a frame with the scene and hands it to `see`.
 ///
 /// # Errors
 ///
-/// When the scene has another number of lights, or no room.
-pub fn frame<T, const LIGHTS: usize>(
+/// When the scene has another number of lights, or lights of another kind, or no room.
+pub fn frame<T, const LIGHTS: usize, L: FromReference>(
     scene: &Scene<'_>,
     meshes: &Meshes,
-    see: impl FnOnce(beamshade::Picture<'_, LIGHTS>) -> T,
+    see: impl FnOnce(beamshade::Picture<'_, LIGHTS, L>) -> T,
 ) -> Result<T> {
     let borrowed: Vec<_> = meshes.0.iter().map(Quantized::mesh).collect();
-    let mut frame: Box<BigFrame<'_, LIGHTS>> = Box::default();
-    let lights: Vec<_> = scene
-        .lights
-        .iter()
-        .map(|l| Light::directional(l.direction.to_array().map(|c| c as f32)).intensity(l.intensity as f32))
-        .collect();
-    let lights: &[Light; LIGHTS] = lights.as_slice().try_into().context("another number of lights")?;
+    let mut frame: Box<BigFrame<'_, LIGHTS, L>> = Box::default();
+    let lights: Vec<L> = scene.lights.iter().map(|&light| light.try_into()).collect::<Result<_>>()?;
+    let lights: &[L; LIGHTS] = lights.as_slice().try_into().context("another number of lights")?;
     let [r, g, b] = scene.background.map(|c| c as f32);
     frame.background(Background::Plain(Color::rgb(r, g, b)));
     frame.begin(&camera(&scene.camera), lights)?;
     for (mesh, object) in borrowed.iter().zip(&scene.objects) {
-        let pose = Pose::turned(rotation(object.pose.rotation)).scaled(object.pose.scale as f32).at(object
-            .pose
-            .translation
-            .to_array()
-            .map(|c| c as f32));
+        let pose =
+            Pose::turned(rotation(object.pose.rotation)).scaled(object.pose.scale as f32).at(single(object.pose.translation));
         frame.add(mesh, &pose)?;
     }
     Ok(see(frame.picture()))
@@ -142,16 +172,19 @@ pub fn frame<T, const LIGHTS: usize>(
 /// # Errors
 ///
 /// As [`frame`].
-pub fn draw<P: Ink, S: Shade<LIGHTS>, const LIGHTS: usize>(scene: &Scene<'_>, meshes: &Meshes) -> Result<Picture<P>> {
+pub fn draw<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromReference>(
+    scene: &Scene<'_>,
+    meshes: &Meshes,
+) -> Result<Picture<P>> {
     frame(scene, meshes, |picture| {
-        let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS>> = Box::default();
+        let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS, L>> = Box::default();
         read(&mut scanner.start(picture))
     })
 }
 
 /// All lines of a picture, with the owners of its pixels.
-pub fn read<P: Ink, S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(
-    lines: &mut Lines<'_, ACTIVE, S, LIGHTS>,
+pub fn read<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(
+    lines: &mut Lines<'_, ACTIVE, S, LIGHTS, L>,
 ) -> Picture<P> {
     let size = lines.viewport().size;
     let mut picture = Picture::blank(size.width as usize, size.height as usize, P::plain(Color::BLACK));

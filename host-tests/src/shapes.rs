@@ -1,5 +1,6 @@
 //! Round meshes with the normals of what they stand for.
 
+use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
@@ -13,6 +14,61 @@ pub fn sphere(steps: u32) -> Mesh {
         let ring = on_sphere(PI * down, TAU * around);
         (ring, ring)
     })
+}
+
+/// A unit sphere of 20 · 4ⁿ almost equal triangles: an icosahedron, each triangle of which is divided into four, n times.
+#[must_use]
+pub fn icosphere(divisions: u32) -> Mesh {
+    let golden = (1.0 + 5_f64.sqrt()) / 2.0;
+    let mut points = Vec::new();
+    // The corners of three golden rectangles.
+    for (a, b) in [(-1.0, golden), (1.0, golden), (-1.0, -golden), (1.0, -golden)] {
+        points.extend([DVec3::new(a, b, 0.0), DVec3::new(0.0, a, b), DVec3::new(b, 0.0, a)].map(DVec3::normalize));
+    }
+    let mut triangles = icosahedron(&points);
+    for _ in 0..divisions {
+        let mut middles = HashMap::new();
+        let mut middle = |a: u32, b: u32| {
+            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                points.push((points[a as usize] + points[b as usize]).normalize());
+                points.len() as u32 - 1
+            })
+        };
+        triangles = triangles
+            .into_iter()
+            .flat_map(|[a, b, c]| {
+                let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+            })
+            .collect();
+    }
+    Mesh::new(points.clone(), points, triangles)
+}
+
+/// The triangles between neighbours of twelve corners, counter-clockwise seen from outside.
+fn icosahedron(corners: &[DVec3]) -> Vec<[u32; 3]> {
+    let count = corners.len() as u32;
+    let all = (0..count).flat_map(|a| (0..count).flat_map(move |b| (0..count).map(move |c| [a, b, c])));
+    let face = |&[a, b, c]: &[u32; 3]| {
+        let [p, q, r] = [a, b, c].map(|corner| corners[corner as usize]);
+        // Neighbours are 63° apart; all others more than 90°.
+        let close = p.dot(q) > 0.0 && q.dot(r) > 0.0 && r.dot(p) > 0.0;
+        a < b.min(c) && b != c && close && p.dot(q.cross(r)) > 0.0
+    };
+    all.filter(face).collect()
+}
+
+/// One triangle in the xy plane with its corners on the unit circle, the first at the top, and normals that lean outwards by that
+/// angle in radians.
+#[must_use]
+pub fn bent_triangle(lean: f64) -> Mesh {
+    let corner = |index: u32| {
+        let (sine, cosine) = (TAU * f64::from(index) / 3.0).sin_cos();
+        let outwards = DVec3::new(-sine, cosine, 0.0);
+        (outwards, outwards * lean.sin() + DVec3::Z * lean.cos())
+    };
+    let (positions, normals) = (0..3).map(corner).unzip();
+    Mesh::new(positions, normals, vec![[0, 1, 2]])
 }
 
 /// The lower part of a unit sphere, open at the top.
@@ -58,16 +114,35 @@ fn surface(rows: u32, around: u32, place: impl Fn(f64, f64) -> (DVec3, DVec3)) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashSet;
 
     #[test]
     fn triangles_face_where_their_normals_point() {
-        for mesh in [sphere(7), bowl(5), torus(9)] {
+        for mesh in [sphere(7), icosphere(2), bent_triangle(0.7), bowl(5), torus(9)] {
             for corners in &mesh.triangles {
                 let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
                 let normal: DVec3 = corners.iter().map(|&corner| mesh.normals[corner as usize]).sum();
                 let face = (b - a).cross(c - a);
                 assert!(face.length() < 1e-9 || face.dot(normal) > 0.0, "{corners:?}");
             }
+        }
+    }
+
+    #[test]
+    fn an_icosphere_is_closed_round_and_even() {
+        for divisions in 0..3 {
+            let mesh = icosphere(divisions);
+            let faces = 20 * 4_usize.pow(divisions);
+            // Euler: V − E + F = 2 with three half edges to a face.
+            assert_eq!((mesh.triangles.len(), mesh.positions.len()), (faces, faces / 2 + 2));
+            let edges: HashSet<_> = mesh.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+            assert_eq!(edges.len(), 3 * faces);
+            assert!(edges.iter().all(|&(a, b)| edges.contains(&(b, a))));
+            assert!(mesh.positions.iter().all(|position| (position.length() - 1.0).abs() < 1e-12));
+            let length = |&(a, b): &(u32, u32)| mesh.positions[a as usize].distance(mesh.positions[b as usize]);
+            let longest = edges.iter().map(length).fold(0.0, f64::max);
+            let shortest = edges.iter().map(length).fold(f64::INFINITY, f64::min);
+            assert!(longest / shortest < 1.2, "{shortest} to {longest}");
         }
     }
 }

@@ -41,7 +41,7 @@ fn check<P: Format>(name: &str, drawn: &Picture<P>, scene: &Scene<'_>, least_db:
 }
 
 fn draw<P: Ink, S: Shade<1>>(scene: &Scene<'_>) -> Picture<P> {
-    library::draw::<P, S, 1>(scene, &Meshes::of(scene).unwrap()).unwrap()
+    library::draw::<P, S, 1, beamshade::Light>(scene, &Meshes::of(scene).unwrap()).unwrap()
 }
 
 fn camera(near: f64) -> Camera {

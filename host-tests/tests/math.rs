@@ -2,15 +2,18 @@
 
 use beamshade::math::{
     angle::Turn,
+    arc::{arc_cosine, arc_tangent},
+    piecewise::PiecewisePower,
     power::Power,
     product::scale,
     reciprocal::{rough, Reciprocal},
-    root::inverse_root,
+    root::{inverse_root, square_root, ReciprocalRoot},
     rotation::Rotation,
     screen::{area, first_at},
     vector::Vector,
 };
 use embedded_graphics::geometry::Point;
+use std::ops::RangeInclusive;
 
 /// Largest and RMS of errors.
 fn statistics(errors: impl Iterator<Item = f64>) -> (f64, f64) {
@@ -39,6 +42,24 @@ fn sine_and_cosine() {
     let (largest, rms) = statistics(sines.chain(cosines));
     documented("largest", largest, 3.6e-9);
     documented("RMS", rms, 8e-10);
+}
+
+#[test]
+fn short_cosine() {
+    let one = f64::from(1 << 30);
+    let error =
+        |turn: u32| f64::from(Turn(turn).cosine()) / one - (f64::from(turn) / 4_294_967_296.0 * std::f64::consts::TAU).cos();
+    let (largest, rms) = statistics((0..1_000_003_u64).map(|i| error((i * 4294) as u32)));
+    documented("largest", largest, 7.7e-6);
+    documented("RMS", rms, 1.4e-6);
+    let (largest, _) = statistics((0..1 << 27).step_by(997).map(error));
+    documented("largest near 0", largest, 1e-7);
+    let right = 1 << 30;
+    assert_eq!([0, 2 * right].map(|turn| Turn(turn).cosine()), [1 << 30, -1 << 30]);
+    for turn in (0..right).step_by(99_991) {
+        let cosine = Turn(turn).cosine();
+        assert_eq!([-Turn(turn), Turn(turn + 2 * right), Turn(2 * right - turn)].map(Turn::cosine), [cosine, -cosine, -cosine]);
+    }
 }
 
 #[test]
@@ -89,6 +110,234 @@ fn reciprocal_root() {
     documented("largest up to 0.5", largest, 5.8e-5);
     assert_eq!([inverse_root(-1), inverse_root(i32::MIN), inverse_root(0)], [1 << 15; 3]);
     assert_eq!([inverse_root(3 * quarter), inverse_root(4 * quarter), inverse_root(i32::MAX)], [2 << 15, 8 << 15, 8 << 15]);
+}
+
+/// Numbers of all sizes, and those about powers of two.
+fn words() -> impl Iterator<Item = u32> {
+    let spread = (0..2_000_000).map(|i| i * 2147 + 1);
+    (1..4096_u32)
+        .chain(spread)
+        .chain((0..32).flat_map(|k| [(1_u32 << k).wrapping_sub(1), 1 << k]))
+        .chain([u32::MAX])
+        .filter(|x| *x > 0)
+}
+
+#[test]
+fn reciprocal_root_of_any_number() {
+    let (largest, rms) = statistics(words().map(|x| {
+        let r = ReciprocalRoot::of(x);
+        assert!(r.mantissa >= 1 << 30 && r.mantissa <= 1 << 31, "{x}");
+        f64::from(r.mantissa) * f64::from(r.half_zeros - 46).exp2() * f64::from(x).sqrt() - 1.0
+    }));
+    documented("largest", largest, 1.1e-8);
+    documented("RMS", rms, 1.5e-9);
+    assert_eq!(ReciprocalRoot::of(0), ReciprocalRoot::of(1));
+    // It takes any number, if only to answer to some.
+    let _ = (0..1 << 30).step_by(9973).map(ReciprocalRoot::mantissa).fold(0, u32::wrapping_add);
+}
+
+#[test]
+fn square_roots() {
+    let one = f64::from(1 << 30);
+    let error = |x: u32| f64::from(square_root(x)) / one - (f64::from(x) / one).sqrt();
+    let (largest, rms) = statistics((0..=1 << 30).step_by(997).map(error));
+    documented("largest", largest, 9e-9);
+    documented("RMS", rms, 1.4e-9);
+    let (largest, _) = statistics(words().map(|x| (error(x).abs() - 0.5 / one).max(0.0) / (f64::from(x) / one).sqrt()));
+    documented("largest part of the root", largest, 1.8e-8);
+    assert_eq!([0, 1 << 28, 1 << 30].map(square_root), [0, 1 << 29, 1 << 30]);
+}
+
+const CIRCLE: f64 = 4_294_967_296.0;
+
+#[test]
+fn arc_cosines() {
+    let one = 1 << 30;
+    let exact = |cos: i32| (f64::from(cos) / f64::from(one)).acos() / std::f64::consts::TAU;
+    let error = |cos: i32| f64::from(arc_cosine(cos)) / CIRCLE - exact(cos);
+    let (largest, rms) = statistics((-one..=one).step_by(1009).map(error));
+    documented("largest", largest, 8.5e-7);
+    documented("RMS", rms, 2.0e-7);
+    // Small angles, beside rounding, as parts of themselves; and what is missing of half a circle.
+    let apart = |cos: i32| (error(cos).abs() - 1.0 / CIRCLE) / exact(cos.abs());
+    let near = || (1..20_000).chain((20_000..one / 16).step_by(997));
+    documented("relative, near one", statistics(near().map(|less| apart(one - less).max(0.0))).0, 1.4e-6);
+    documented("relative, near minus one", statistics(near().map(|less| apart(less - one).max(0.0))).0, 1.4e-6);
+    assert_eq!([one, one + 1, i32::MAX].map(arc_cosine), [0; 3]);
+    assert_eq!([-one, -one - 1, i32::MIN].map(arc_cosine), [i32::MAX; 3]);
+}
+
+#[test]
+fn arc_tangents() {
+    let exact = |y: i32, x: i32| f64::from(y).atan2(f64::from(x)) / std::f64::consts::TAU;
+    let error = |y: i32, x: i32| f64::from(arc_tangent(y, x)) / CIRCLE - exact(y, x);
+    // All around, for vectors long and short.
+    let directions = |length: f64| {
+        (0..400_009).map(move |i| {
+            let (sin, cos) = (f64::from(i) / 400_009.0 * std::f64::consts::TAU).sin_cos();
+            error((sin * length) as i32, (cos * length) as i32)
+        })
+    };
+    for length in [1_500_000_000.0, 1_048_576.0, 700.0, 3.0] {
+        assert!(statistics(directions(length)).0 <= 4.3e-7, "{length}");
+    }
+    let (largest, rms) = statistics(directions(2_147_483_647.0));
+    documented("largest", largest, 4.3e-7);
+    documented("RMS", rms, 8.2e-8);
+    let small = || (1..100_000).chain((100_000..1 << 27).step_by(9973));
+    let flat = |y: i32, x: i32| (error(y, x).abs() - 1.0 / CIRCLE).max(0.0) / exact(y, x);
+    documented("relative, near the x axis", statistics(small().map(|y| flat(y, i32::MAX))).0, 1.3e-6);
+    for y in small() {
+        // The same in all octants.
+        let angle = arc_tangent(y, i32::MAX);
+        assert_eq!([arc_tangent(-y, i32::MAX), arc_tangent(i32::MAX, y)], [-angle, (1 << 30) - angle]);
+        assert_eq!(arc_tangent(y, -i32::MAX), (i32::MAX - angle).saturating_add(1));
+    }
+    let extreme = [i32::MIN, -1, 0, 1, i32::MAX];
+    for (y, x) in extreme.iter().flat_map(|y| extreme.map(|x| (*y, x))).filter(|pair| *pair != (0, 0)) {
+        assert!(error(y, x).abs() < 4.3e-7, "{y} {x}");
+    }
+    assert_eq!([(0, 0), (0, 7), (0, -7), (7, 0), (-7, 0)].map(|(y, x)| arc_tangent(y, x)), [0, 0, i32::MAX, 1 << 30, -1 << 30]);
+}
+
+/// Errors of Eq. 4 as printed, of its refit, and of the table, for one exponent from −90° to 90°, in levels of 255: each largest
+/// and RMS.
+fn power_errors(exponent: u16) -> [(f64, f64); 3] {
+    let (printed, refit, table) = (PiecewisePower::printed(exponent), PiecewisePower::refit(exponent), Power::new(exponent));
+    let right = 1 << 30;
+    let angles = || (-right..=right).step_by(100_003);
+    let cos = |angle: i32| (f64::from(angle) / CIRCLE * std::f64::consts::TAU).cos();
+    let errors = |power: &dyn Fn(i32) -> u32| {
+        statistics(angles().map(|angle| 255.0 * (f64::from(power(angle)) / 16384.0 - cos(angle).powi(exponent.into()))))
+    };
+    [
+        errors(&|angle| printed.at(angle)),
+        errors(&|angle| refit.at(angle)),
+        errors(&|angle| table.at((cos(angle) * 2_147_483_648.0) as u32)),
+    ]
+}
+
+#[test]
+fn powers_in_levels() {
+    // The table in the docs of `PiecewisePower`: printed, refit and table, each largest and RMS.
+    let listed = [
+        (1, [13.4, 3.5, 6.1, 4.0, 0.5, 0.15]),
+        (2, [10.6, 5.1, 9.4, 4.5, 0.6, 0.22]),
+        (5, [3.7, 1.9, 4.4, 1.9, 1.3, 0.40]),
+        (10, [5.2, 2.1, 3.8, 1.6, 1.3, 0.33]),
+        (20, [3.8, 1.5, 3.7, 1.5, 2.5, 0.55]),
+        (32, [4.7, 1.5, 3.7, 1.4, 2.0, 0.39]),
+        (50, [4.7, 1.3, 3.7, 1.3, 1.6, 0.27]),
+        (100, [9.2, 2.1, 3.7, 1.1, 1.6, 0.23]),
+        (125, [14.2, 3.2, 3.7, 1.0, 2.0, 0.27]),
+        (256, [37.6, 8.4, 3.7, 0.9, 2.0, 0.23]),
+    ];
+    for (exponent, stated) in listed {
+        let measured = power_errors(exponent).into_iter().flat_map(|(largest, rms)| [largest, rms]);
+        for (measured, stated) in measured.zip(stated) {
+            documented(&format!("n = {exponent}"), measured, stated);
+        }
+    }
+    let worst = |exponents: RangeInclusive<u16>, which: usize| exponents.map(|n| power_errors(n)[which].0).fold(0.0, f64::max);
+    documented("printed, n = 5 … 50", worst(5..=50, 0), 5.4);
+    documented("refit, n = 10 … 256", worst(10..=256, 1), 3.8);
+    documented("table", worst(1..=256, 2), 0.0136 * 255.0);
+}
+
+/// Eq. 4 in f64, with a and b in radians.
+fn equation_4(angle: f64, a: f64, b: f64) -> f64 {
+    let angle = angle.abs();
+    if angle >= b {
+        0.0
+    } else if angle <= a {
+        1.0 - angle * angle / (a * b)
+    } else {
+        (angle - b).powi(2) / (b * (b - a))
+    }
+}
+
+/// a and b of Eq. 4 as printed, and of its refit.
+fn knees_and_reaches(n: f64) -> [(f64, f64); 2] {
+    let refit = match n {
+        1.0 => (1.3545, 1.6861),
+        _ => (0.755 / n.sqrt() * (1.0 + 0.65 / n), 2.99 / n.sqrt() * (1.0 - 0.47 / n)),
+    };
+    [((n + 5.6) / (n * (0.09 * n + 5.2)), (n + 65.0) / (5.0 * n + 31.7)), refit]
+}
+
+#[test]
+fn equation_4_is_as_exact_as_its_errata_say() {
+    let error = |n: u16, (a, b): (f64, f64)| {
+        let angles = (0..=20_000).map(|i| f64::from(i) / 20_000.0 * std::f64::consts::FRAC_PI_2);
+        255.0 * statistics(angles.map(|angle| equation_4(angle, a, b) - angle.cos().powi(n.into()))).0
+    };
+    let listed = [(1, 13.3), (5, 3.6), (10, 5.2), (20, 3.7), (50, 4.6), (100, 9.1), (125, 14.2), (256, 37.5)];
+    for (n, levels) in listed {
+        let found = error(n, knees_and_reaches(n.into())[0]);
+        assert!((found - levels).abs() < 0.06, "{n}: {found}");
+    }
+    for n in 10..=256 {
+        assert!(error(n, knees_and_reaches(n.into())[1]) < 3.75, "{n}");
+    }
+}
+
+#[test]
+fn parabolas_are_those_of_equation_4() {
+    const RADIAN: f64 = CIRCLE / std::f64::consts::TAU;
+    let (mut beside, mut stepped) = (vec![], vec![]);
+    for exponent in 1..=256_u16 {
+        let powers = [PiecewisePower::printed(exponent), PiecewisePower::refit(exponent)];
+        for (power, (a, b)) in powers.iter().zip(knees_and_reaches(exponent.into())) {
+            let [knee, reach] = [power.knee(), power.reach()];
+            assert!((f64::from(knee) / RADIAN / a - 1.0).abs() < 1e-7 && (f64::from(reach) / RADIAN / b - 1.0).abs() < 1e-7);
+            let exact = |angle: i64| equation_4(angle as f64 / RADIAN, a, b);
+            for angle in (-reach..=reach).step_by(reach as usize / 1009) {
+                beside.push(f64::from(power.at(angle)) - 16384.0 * exact(angle.into()));
+                assert_eq!(power.at(angle), power.at(-angle));
+            }
+            assert_eq!([0, reach, reach - 1, i32::MIN, i32::MAX].map(|angle| power.at(angle)), [16384, 0, 0, 0, 0]);
+            // Which of the parabolas an angle is on.
+            let parabola = |angle: i64| [-reach, -knee, knee, reach].map(|end| angle > i64::from(end));
+            for pixels in [3, 7, 256, 1024] {
+                let step = 2 * i64::from(reach) / pixels;
+                for part in -8..8 {
+                    let start = i64::from(reach) * part / 8 + 1;
+                    for (step, peak) in [(step, 16384_u32), (-step, 4915)] {
+                        let mut along = power.along(start as i32, step as i32, peak);
+                        let angles =
+                            (0..pixels).map(|i| start + i * step).take_while(|angle| parabola(*angle) == parabola(start));
+                        for angle in angles {
+                            stepped.push(f64::from(along.next()) / f64::from(1 << 30) - f64::from(peak) / 16384.0 * exact(angle));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let (largest, rms) = statistics(beside.into_iter());
+    documented("largest, units of 2⁻¹⁴", largest, 2.6);
+    documented("RMS, units of 2⁻¹⁴", rms, 0.65);
+    let (largest, rms) = statistics(stepped.into_iter());
+    documented("largest along a line", largest, 5.3e-5);
+    documented("RMS along a line", rms, 8.5e-6);
+}
+
+#[test]
+fn parabolas_take_anything() {
+    const FIXED: PiecewisePower = PiecewisePower::refit(32);
+    assert_eq!(FIXED, PiecewisePower::refit(32));
+    assert_eq!([0, 300].map(PiecewisePower::printed), [1, 256].map(PiecewisePower::printed));
+    assert_eq!(PiecewisePower::refit(0), PiecewisePower::refit(1));
+    let mut random = fastrand::Rng::with_seed(4);
+    for exponent in 0..=u16::MAX {
+        let power = [PiecewisePower::printed(exponent), PiecewisePower::refit(exponent)];
+        for power in power {
+            assert!(0 < power.knee() && power.knee() < power.reach(), "{exponent}");
+            let (angle, step, peak) = (random.i32(-power.reach()..power.reach()), random.i32(..), random.u32(..));
+            assert!(power.at(angle) <= 16384, "{exponent} {angle}");
+            let _ = [angle, i32::MIN, random.i32(..)].map(|angle| power.along(angle, step, peak));
+        }
+    }
 }
 
 #[test]

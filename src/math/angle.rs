@@ -1,5 +1,7 @@
 //! Angles as fractions of a circle, and their sines.
 
+use super::product::square;
+
 /// An angle, in 2³² parts of a full circle; sums wrap as angles do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Turn(pub u32);
@@ -46,6 +48,39 @@ impl Turn {
             1 => (cos, -sin),
             2 => (-sin, -cos),
             _ => (-cos, sin),
+        }
+    }
+
+    /// The cosine in Q30 by short products alone, for lines and pixels; [`sin_cos`](Self::sin_cos) takes 60 times as long on
+    /// Cortex-M0+.
+    ///
+    /// Error against f64 at most 7.7·10⁻⁶, RMS below 1.4·10⁻⁶; within an eighth of a right angle of 0 at most 10⁻⁷.
+    #[inline]
+    #[must_use]
+    pub const fn cosine(self) -> i32 {
+        const SQUARE: f64 = core::f64::consts::FRAC_PI_2 * core::f64::consts::FRAC_PI_2;
+        // The series in the square of the angle as a part of a right angle; its last term such that a right angle gives 0.
+        const C1: f64 = SQUARE / 2.0;
+        const C2: f64 = C1 * SQUARE / 12.0;
+        const C3: f64 = C2 * SQUARE / 30.0;
+        const C4: f64 = C1 - C2 + C3 - 1.0;
+        const fn fraction(c: f64, bits: u32) -> u32 {
+            (c * (1 << bits) as f64 + 0.5) as u32
+        }
+        // The distance from 0 or half a circle, whichever is nearer.
+        let distance = (self.0 as i32).unsigned_abs();
+        let nearer = if distance > 1 << 30 { (1 << 31) - distance } else { distance };
+        let square = square(nearer);
+        let (high, low) = (square >> 14, square & 0x3fff);
+        // Each has the bits that a product with 16 others leaves room for: Q21, Q17, and C1 − 1 − … in Q18.
+        let sum = fraction(C3, 21) - ((high * fraction(C4, 21)) >> 16);
+        let sum = fraction(C2, 17) - ((high * sum) >> 20);
+        let sum = fraction(C1 - 1.0, 18).saturating_sub((high * sum) >> 15);
+        let cos = (1 << 30) - (square + ((high * sum) >> 4) + ((low * sum) >> 18)) as i32;
+        if distance > 1 << 30 {
+            -cos
+        } else {
+            cos
         }
     }
 }

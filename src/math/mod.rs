@@ -8,6 +8,7 @@
 //! | normal, product of normal and light | Q14, `i16` | 2⁻¹⁴ | ±1 |
 //! | edge constant `1 − n_i·n_j` | Q15, `u16` | 2⁻¹⁵ | 0 … 2 |
 //! | angle | [`Turn`](angle::Turn), `u32` | 2⁻³² of a circle | a circle |
+//! | angle interpolated or measured, [`arc`] | `i32` | 2⁻³² of a circle | ±½ circle |
 //! | sine, rotation, direction | Q30, `i32` | 2⁻³⁰ | ±2 |
 //! | point on the screen | 1/256 pixel, 20 bits | 2⁻⁸ | ±2048 pixels |
 //! | nearness `1/z`, scaled to the near plane | 23 bits | 2⁻²³ | 0 … 1 |
@@ -19,8 +20,10 @@
 //! | colour factor, coefficient | Q15, `u16` | 2⁻¹⁵ | 0 … 1 |
 
 pub mod angle;
+pub mod arc;
 pub mod gradient;
 pub mod interpolant;
+pub mod piecewise;
 pub mod power;
 pub mod product;
 pub mod quadratic;

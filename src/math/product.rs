@@ -27,6 +27,14 @@ pub const fn scale(a: i32, shift: i32) -> i32 {
     }
 }
 
+/// The square of a Q30 number up to one, Q30, rounded down or one less.
+#[inline(always)]
+#[must_use]
+pub const fn square(x: u32) -> u32 {
+    let (high, low) = (x >> 15, x & 0x7fff);
+    high.wrapping_mul(high).wrapping_add(high.wrapping_mul(low) >> 14)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -38,6 +46,15 @@ mod tests {
                 assert_eq!(i64::from(mul_high(a, b)), (i64::from(a) * i64::from(b)) >> 16, "{a} {b}");
             }
         }
+    }
+
+    #[test]
+    fn square_is_rarely_less_than_the_floor() {
+        for x in [0, 1, 32_767, 32_768, 1_000_003, 777_777_777, (1 << 30) - 1, 1 << 30] {
+            let exact = ((u64::from(x) * u64::from(x)) >> 30) as u32;
+            assert!(exact - square(x) <= 1, "{x}");
+        }
+        assert_eq!(square(1 << 30), 1 << 30);
     }
 
     #[test]

@@ -1,4 +1,6 @@
-//! The reciprocal square root that renormalises an interpolated normal.
+//! Square roots and their reciprocals, from one table: that which renormalises an interpolated normal.
+
+use super::product::mul_high;
 
 /// `1/√(1 − u)` in Q15 (one is 32768) for u in Q28, 0 to 63/64; below it counts as 0, beyond it gives 8.
 ///
@@ -27,6 +29,62 @@ fn steep(u: u32) -> u32 {
         return 8 * ONE;
     }
     factor * inverse_root((WHOLE - rest.min(WHOLE)) as i32)
+}
+
+/// `1/√x` as a mantissa and a power of two: `mantissa · 2^(half_zeros − 46)`.
+///
+/// [`inverse_root`] and one step of Newton's; relative error at most 1.1·10⁻⁸, RMS below 1.5·10⁻⁹.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReciprocalRoot {
+    /// At least 2³⁰, at most 2³¹.
+    pub mantissa: u32,
+    /// Half of the leading zeros of x, rounded down.
+    pub half_zeros: i32,
+}
+
+impl ReciprocalRoot {
+    /// The reciprocal of the root of x; 0 counts as 1.
+    #[inline]
+    #[must_use]
+    pub fn of(x: u32) -> Self {
+        let x = x.max(1);
+        let half_zeros = x.leading_zeros() / 2;
+        Self { mantissa: Self::mantissa(x << (2 * half_zeros)), half_zeros: half_zeros as i32 }
+    }
+
+    /// The mantissa of the reciprocal of the root of x, which has at most one leading zero: `2⁴⁶ / √x`. Others give anything.
+    #[inline]
+    #[must_use]
+    pub fn mantissa(x: u32) -> u32 {
+        let (y0, _, e) = rough(x);
+        // Q15 · Q27, and half of it: Q30.
+        (y0 << 15).wrapping_add_signed((y0 as i32).wrapping_mul(e.wrapping_add(2) >> 2) >> 13)
+    }
+}
+
+/// The square root of a Q30 number (one is 2³⁰), Q30, rounded; from 0 up to 4.
+///
+/// For numbers up to one the error is at most 9·10⁻⁹, RMS below 1.4·10⁻⁹; for all at most 1.8·10⁻⁸ of the root, and half a unit.
+#[inline]
+#[must_use]
+pub fn square_root(x: u32) -> u32 {
+    if x == 0 {
+        return 0;
+    }
+    let half_zeros = x.leading_zeros() / 2;
+    let (_, root, e) = rough(x << (2 * half_zeros));
+    // Q14 · Q29, and half of it: Q30. Twice that, as x is Q30; and half for every two bits by which it was shifted.
+    let root = (root + (((root >> 16) * e) >> 14)) as u32 * 2;
+    (root + ((1 << half_zeros) >> 1)) >> half_zeros
+}
+
+/// Of x as a fraction of 2³², 1/4 to 1: the reciprocal of its root to 13 bits, Q15; the root by that, Q30; and what their product
+/// lacks of one, Q29, less than 2¹⁷. Either lacks half as much, as a part of itself.
+#[inline(always)]
+fn rough(x: u32) -> (u32, i32, i32) {
+    let y0 = inverse_root((x.wrapping_neg() >> 4) as i32);
+    let root = mul_high((x >> 1) as i32, y0);
+    (y0, root, (1_i32 << 29).wrapping_sub(mul_high(root, y0)))
 }
 
 const ONE: u32 = 1 << 15;

@@ -3,56 +3,135 @@
 use crate::firmware::{METHOD, SCENE};
 use crate::project::progress;
 use crate::table;
-use anyhow::{bail, Result};
-use beamshade::{DuffBarycentric, Flat, Gouraud};
-use host_tests::accuracy::{self, Row, Truth};
-use host_tests::{scenes, Measures};
+use anyhow::{bail, ensure, Result};
+use beamshade::DuffBarycentric;
+use host_tests::accuracy::{self, Method, Outcome, Row, Truth, METHODS};
+use host_tests::scenes::{self, Case, Illumination, Subject};
+use host_tests::Measures;
 use serde_json::{json, Value};
 
-/// Compare the library's pictures of a standard scene with those of the f64 reference, frame by frame.
+/// Compare the library's pictures with those of the f64 reference, frame by frame.
 ///
-/// Gray8 shows a white body, Rgb565 an orange one under a white highlight. Colours are compared over pixels that show the same
-/// triangle in both pictures, in levels of 8 bits; wrong_owner counts pixels covered in one only or by triangles that share no
-/// vertex. The truth is the ideal scene; beside it stand the scene in correct perspective, and the quantised mesh with its
-/// vertices snapped to 1/256 pixel, which leaves the errors of the arithmetic alone.
+/// A standard scene's Gray8 shows a white body, Rgb565 an orange one under a white highlight. Colours are compared over pixels
+/// that show the same triangle in both pictures, in levels of 8 bits; wrong_owner counts pixels covered in one only or by triangles
+/// that share no vertex. The truth is the ideal scene; beside it stand the scene in correct perspective, and the quantised mesh with
+/// its vertices snapped to 1/256 pixel, which leaves the errors of the arithmetic alone.
+///
+/// With --all, every method is compared on every case in Gray8 against the ideal scene.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// Print one JSON object a line: each frame, output and truth.
     #[arg(long)]
     json: bool,
-    /// The scene: t880 or t5560.
-    #[arg(long, default_value = SCENE)]
-    scene: String,
-    /// The shading method: duff-barycentric, gouraud or flat.
-    #[arg(long, default_value = METHOD)]
-    method: String,
+    /// Every method on every case: scenes, lights, exponents.
+    #[arg(long)]
+    all: bool,
+    /// The scene: t880 or t5560; with --all only this one of t880, t880-512, i320, i80, triangle.
+    #[arg(long)]
+    scene: Option<String>,
+    /// The shading method, or several with commas between; with --all only these.
+    #[arg(long, value_delimiter = ',')]
+    method: Vec<String>,
+    /// With --all only this light: directional or point, or how its name begins.
+    #[arg(long, requires = "all")]
+    light: Option<String>,
 }
 
 /// `cargo xtask accuracy`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let mesh = match arguments.scene.as_str() {
+    let methods: Vec<_> = arguments.method.iter().map(|name| Method::named(name)).collect::<Result<_>>()?;
+    if arguments.all {
+        all(arguments, methods)
+    } else {
+        standard(arguments, methods)
+    }
+}
+
+/// A standard scene, in all outputs and truths.
+fn standard(arguments: &Arguments, mut methods: Vec<&'static Method>) -> Result<()> {
+    let scene = arguments.scene.as_deref().unwrap_or(SCENE);
+    let mesh = match scene {
         "t880" => scenes::teapot_880()?,
         "t5560" => scenes::teapot_5560()?,
         other => bail!("there is no scene {other:?}; there are t880 and t5560"),
     };
-    let step = |frame: u32| {
-        if frame.is_multiple_of(20) {
-            progress(format!("{}, {}: frame {frame} of {}", arguments.scene, arguments.method, scenes::FRAMES));
+    if methods.is_empty() {
+        methods.push(Method::named(METHOD)?);
+    }
+    for method in methods {
+        let mut step = |frame: u32| {
+            if frame.is_multiple_of(20) {
+                progress(format!("{scene}, {}: frame {frame} of {}", method.name, scenes::FRAMES));
+            }
+        };
+        let rows = (method.standard)(&mesh, &mut step)?;
+        if arguments.json {
+            let exponent = accuracy::exponent(&scenes::WHITE);
+            rows.iter().for_each(|row| println!("{}", object(scene, method.name, "directional", exponent, row)));
+        } else {
+            println!("{scene}, {}, worst of {} frames\n", method.name, scenes::FRAMES);
+            println!("{}\n", text(&rows));
         }
-    };
-    let rows = match arguments.method.as_str() {
-        "duff-barycentric" => accuracy::standard::<DuffBarycentric>(&mesh, step)?,
-        "gouraud" => accuracy::standard::<Gouraud>(&mesh, step)?,
-        "flat" => accuracy::standard::<Flat>(&mesh, step)?,
-        other => bail!("there is no method {other:?}; there are duff-barycentric, gouraud and flat"),
-    };
-    if arguments.json {
-        rows.iter().for_each(|row| println!("{}", object(arguments, row)));
-    } else {
-        println!("{}, {}, worst of {} frames\n", arguments.scene, arguments.method, scenes::FRAMES);
-        println!("{}\n", text(&rows));
     }
     Ok(())
+}
+
+/// Every case.
+fn all(arguments: &Arguments, mut methods: Vec<&'static Method>) -> Result<()> {
+    let mut cases: Vec<_> = Case::all().collect();
+    if let Some(scene) = &arguments.scene {
+        cases.retain(|case| case.subject.name() == scene);
+    }
+    if let Some(light) = &arguments.light {
+        cases.retain(|case| case.light.name().starts_with(light.as_str()));
+    }
+    let names = || Subject::ALL.map(Subject::name).join(", ");
+    ensure!(!cases.is_empty(), "there are the scenes {}, and the lights directional and point", names());
+    if methods.is_empty() {
+        methods.extend(METHODS);
+    }
+    let step = |case: Case| progress(format!("{}, {} light, exponent {}", case.subject.name(), case.light.name(), case.exponent));
+    let outcomes = accuracy::compare(&cases, &methods, step)?;
+    if arguments.json {
+        for Outcome { case, method, rows } in &outcomes {
+            for row in rows {
+                println!("{}", object(case.subject.name(), method, case.light.name(), case.exponent.into(), row));
+            }
+        }
+        return Ok(());
+    }
+    println!("Gray8 against the ideal scene, worst frame measure by measure: PSNR dB / mean / max / over 4 %\n");
+    for subject in Subject::ALL {
+        for light in Illumination::ALL {
+            let these: Vec<_> = outcomes.iter().filter(|at| at.case.subject == subject && at.case.light == light).collect();
+            if !these.is_empty() {
+                println!("### {}, {} light, {} frames\n", subject.name(), light.name(), subject.frames().count());
+                println!("{}\n", side_by_side(&methods, &these));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Methods in rows, exponents in columns.
+fn side_by_side(methods: &[&Method], outcomes: &[&Outcome]) -> String {
+    let row = |method: &&Method| {
+        let of = |outcome: &&&Outcome| outcome.method == method.name;
+        let worst: Vec<_> =
+            outcomes.iter().filter(of).filter_map(|outcome| accuracy::worst(&outcome.rows.iter().collect::<Vec<_>>())).collect();
+        let cell = |measures: &Measures| {
+            let Measures { psnr_db, mean, max, over4_share, .. } = measures;
+            format!("{psnr_db:.1} / {mean:.2} / {max} / {:.2}", 100.0 * over4_share)
+        };
+        let same_owner = worst.iter().map(|measures| measures.same_owner_share).fold(1.0, f64::min);
+        let mut cells = vec![method.name.to_owned()];
+        cells.extend(worst.iter().map(cell));
+        cells.push(format!("{:.3}", 100.0 * same_owner));
+        cells
+    };
+    let exponents = Case::EXPONENTS.map(|exponent| format!("exponent {exponent}"));
+    let head: Vec<_> = ["method"].into_iter().chain(exponents.iter().map(String::as_str)).chain(["same owner %"]).collect();
+    table::text(&head, methods.iter().map(row).collect())
 }
 
 /// The table of the standard scene by the default method, for the README.
@@ -65,11 +144,10 @@ pub(crate) fn summary() -> Result<String> {
 }
 
 /// A row as JSON; a PSNR without any difference is null.
-fn object(arguments: &Arguments, row: &Row) -> Value {
+fn object(scene: &str, method: &str, light: &str, exponent: u32, row: &Row) -> Value {
     let Measures { psnr_db, mean, max, over4_share, same_owner_share, wrong_owner, wrong_neighbour, .. } = row.measures;
     json!({
-        "scene": arguments.scene, "method": arguments.method, "output": row.output, "light": "directional",
-        "exponent": accuracy::exponent(&scenes::WHITE), "frame": row.frame,
+        "scene": scene, "method": method, "output": row.output, "light": light, "exponent": exponent, "frame": row.frame,
         "psnr_db": psnr_db.is_finite().then_some(psnr_db), "mean": mean, "max": max, "over4_share": over4_share,
         "same_owner_share": same_owner_share, "wrong_owner": wrong_owner, "wrong_neighbour": wrong_neighbour,
         "truth": row.truth.name(), "rounding_db": row.rounding_db,

@@ -10,7 +10,7 @@ mod mesh;
 mod render;
 mod scene;
 
-pub use light::{Light, Material};
+pub use light::{Light, Material, Source, Viewer};
 pub use mesh::Mesh;
 pub use render::{render, Normals, Options};
 pub use scene::{Camera, Object, Pose, Scene};

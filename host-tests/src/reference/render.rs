@@ -5,10 +5,11 @@ use glam::{DVec2, DVec3};
 use super::clip::{clip_near, Corner};
 use super::coverage::Coverage;
 use super::light::Lighting;
-use super::{Material, Object, Scene};
+use super::{Camera, Material, Object, Scene};
 use crate::{Owner, Picture};
 
-/// How normals are interpolated over a triangle.
+/// How normals are interpolated over a triangle. Positions always are linear on the triangle in space, so lights and viewers are
+/// seen from where the surface is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// Linear on the screen, as in the papers, and as the library does it.
@@ -45,7 +46,8 @@ pub fn render(scene: &Scene, options: Options) -> Picture<[f64; 3]> {
     let mut canvas = Canvas {
         picture: Picture::blank(camera.width, camera.height, scene.background),
         nearness: vec![0.0; camera.width * camera.height],
-        lighting: Lighting::new(&scene.lights, camera.rotation.z_axis),
+        camera,
+        lighting: Lighting::new(&scene.lights, camera),
         normals: options.normals,
     };
     for (object, number) in scene.objects.iter().zip(0..) {
@@ -79,15 +81,16 @@ fn snapped(point: DVec2, steps: Option<f64>) -> DVec2 {
 }
 
 /// The picture being drawn.
-struct Canvas {
+struct Canvas<'a> {
     picture: Picture<[f64; 3]>,
     /// 1 / distance of what each pixel shows, 0 for the background: linear on the screen.
     nearness: Vec<f64>,
-    lighting: Lighting,
+    camera: &'a Camera,
+    lighting: Lighting<'a>,
     normals: Normals,
 }
 
-impl Canvas {
+impl Canvas<'_> {
     fn draw(&mut self, corners: [Corner; 3], screen: [DVec2; 3], material: &Material, owner: Owner) {
         let Some(coverage) = Coverage::new(screen) else { return };
         if !coverage.is_front() && !material.double_sided {
@@ -110,7 +113,9 @@ impl Canvas {
             let normal: DVec3 = corners.iter().zip(shares).map(|(corner, share)| corner.normal * share).sum();
             self.nearness[pixel] = total;
             self.picture.owner[pixel] = Some(owner);
-            self.picture.color[pixel] = self.lighting.shade(material, normal.normalize_or_zero() * side);
+            let point: DVec3 = corners.iter().zip(near).map(|(corner, share)| corner.position * (share / total)).sum();
+            let normal = normal.normalize_or_zero() * side;
+            self.picture.color[pixel] = self.lighting.shade(material, normal, self.camera.world(point));
         }
     }
 }

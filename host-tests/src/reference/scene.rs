@@ -88,6 +88,12 @@ impl Camera {
         self.rotation.transpose() * (point - self.position)
     }
 
+    /// A point of view space back in the world.
+    #[must_use]
+    pub fn world(&self, view: DVec3) -> DVec3 {
+        self.rotation * view + self.position
+    }
+
     /// A point in view space, before the eye, on the screen: x right, y down, in pixels from the upper left corner.
     /// The middle of the viewport is what the camera looks at.
     #[must_use]
@@ -119,7 +125,8 @@ mod tests {
     fn a_camera_turned_to_the_left_looks_along_minus_x() {
         let camera = Camera { rotation: DMat3::from_rotation_y(FRAC_PI_2), position: DVec3::X, ..camera() };
         // From (1, 0, 0) towards −x: what lies at −z is on the right.
-        assert!(camera.view(DVec3::new(-1.0, 3.0, -4.0)).distance(DVec3::new(4.0, 3.0, -2.0)) < 1e-12);
+        let (world, view) = (DVec3::new(-1.0, 3.0, -4.0), DVec3::new(4.0, 3.0, -2.0));
+        assert!(camera.view(world).distance(view) < 1e-12 && camera.world(view).distance(world) < 1e-12);
     }
 
     #[test]

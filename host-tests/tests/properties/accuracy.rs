@@ -60,7 +60,7 @@ fn round() -> impl Strategy<Value = Round> {
 
 fn lights() -> impl Strategy<Value = Vec<Light>> {
     let light = (uniform3(-1.0..1.0), 0.1..0.66)
-        .prop_map(|(towards, intensity)| Light { direction: DVec3::from(towards).normalize_or(DVec3::Z), intensity });
+        .prop_map(|(towards, intensity)| Light { intensity, ..Light::directional(DVec3::from(towards).normalize_or(DVec3::Z)) });
     vec(light, 1..=3)
 }
 
@@ -78,9 +78,9 @@ fn cameras() -> impl Strategy<Value = Camera> {
 fn measure(scene: &Scene<'_>) -> Measures {
     let meshes = Meshes::of(scene).unwrap();
     let drawn = match scene.lights.len() {
-        1 => library::draw::<Rgb888, DuffBarycentric, 1>(scene, &meshes),
-        2 => library::draw::<Rgb888, DuffBarycentric, 2>(scene, &meshes),
-        _ => library::draw::<Rgb888, DuffBarycentric, 3>(scene, &meshes),
+        1 => library::draw::<Rgb888, DuffBarycentric, 1, beamshade::Light>(scene, &meshes),
+        2 => library::draw::<Rgb888, DuffBarycentric, 2, beamshade::Light>(scene, &meshes),
+        _ => library::draw::<Rgb888, DuffBarycentric, 3, beamshade::Light>(scene, &meshes),
     };
     let reference = render(scene, Options::default());
     Measures::between(&reference.round::<Rgb888>(), &drawn.unwrap(), &scene.triangles())

@@ -14,7 +14,7 @@ use crate::scene::{scenes, Scene, Shape};
 fn draw<const V: usize, const T: usize, const L: usize, const O: usize, const M: usize>(
     frame: &Frame<'_, V, T, L, 1, O, M>,
 ) -> Picture<Rgb888> {
-    read::<_, DuffBarycentric, 512, 1>(&mut Scanner::new().start(frame.picture()))
+    read::<_, DuffBarycentric, 512, 1, _>(&mut Scanner::new().start(frame.picture()))
 }
 
 /// The objects that are seen.
@@ -49,7 +49,7 @@ fn a_frame_of_too_few_lines_draws_the_first_ones() {
     let mut frame = Frame::<'_, 64, 64, 20>::new();
     assert_eq!(frame.begin(&scene.camera, &scene.lights), Err(Full::Lines { fitted: 20 }));
     assert_eq!(scene.fill(&meshes, &mut frame), [Ok(()), Ok(())]);
-    let whole = scene.show(|picture| read::<Rgb888, DuffBarycentric, 512, 1>(&mut Scanner::new().start(picture)));
+    let whole = scene.show(|picture| read::<Rgb888, DuffBarycentric, 512, 1, _>(&mut Scanner::new().start(picture)));
     let drawn = draw(&frame);
     assert_eq!((drawn.width, drawn.height), (64, 20));
     assert!(drawn.color == whole.color[..64 * 20] && drawn.owner == whole.owner[..64 * 20]);

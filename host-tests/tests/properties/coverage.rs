@@ -119,7 +119,7 @@ proptest! {
         let scene = scene(partition.shape(&nearer), Place { rotation: Rotation::NONE, scale: 1.0, at: [0.0; 3] });
         let (times, owners) = times(&scene);
         prop_assert_eq!(times, vec![1; SIZE * SIZE]);
-        let together = scene.show(|picture| read::<Gray8, Flat, 128, 1>(&mut Scanner::new().start(picture)));
+        let together = scene.show(|picture| read::<Gray8, Flat, 128, 1, _>(&mut Scanner::new().start(picture)));
         prop_assert!(together.owner == owners);
     }
 

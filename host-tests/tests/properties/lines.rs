@@ -122,7 +122,7 @@ proptest! {
     fn a_shorter_row_gets_the_same_pixels(scene in scenes::<1>(), short in any::<Index>()) {
         scene.show(|picture| {
             let size = picture.viewport().size;
-            let whole = library::read::<Rgb565, DuffBarycentric, 256, 1>(&mut Scanner::new().start(picture));
+            let whole = library::read::<Rgb565, DuffBarycentric, 256, 1, beamshade::Light>(&mut Scanner::new().start(picture));
             let mut scanner = Box::<Scanner<256>>::default();
             let mut lines = scanner.start(picture);
             for (y, expected) in whole.color.chunks(whole.width).enumerate() {
@@ -150,7 +150,7 @@ proptest! {
         let mut fresh = Box::<Frame<'_, 256, 256, 256, 2, 8, 64>>::default();
         let mut frame = fresh.clone();
         let expected = (scene.fill(&new, &mut fresh), {
-            library::read::<Rgb565, Drawn, 64, 2>(&mut Scanner::new().start(fresh.picture()))
+            library::read::<Rgb565, Drawn, 64, 2, beamshade::Light>(&mut Scanner::new().start(fresh.picture()))
         });
 
         let mut scanner = Box::<Scanner<64, Drawn, 2>>::default();

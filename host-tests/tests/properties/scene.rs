@@ -170,7 +170,7 @@ impl<const LIGHTS: usize> Scene<LIGHTS> {
             for ((corners, material), triangle) in shape.triangles.iter().zip(materials).zip(0..) {
                 let alone = Shape { triangles: vec![*corners], edges: vec![[0; 3]], parts: vec![[1, material]], ..shape.clone() };
                 let scene = Self { objects: vec![(alone, *pose)], ..self.clone() };
-                let picture = scene.show(|picture| read::<Gray8, Flat, 8, LIGHTS>(&mut Scanner::new().start(picture)));
+                let picture = scene.show(|picture| read::<Gray8, Flat, 8, LIGHTS, _>(&mut Scanner::new().start(picture)));
                 let pixels = (0..picture.owner.len()).filter(|pixel| picture.owner[*pixel].is_some()).collect();
                 covered.push((Owner { object, triangle }, pixels));
             }
@@ -293,7 +293,7 @@ fn random_scenes_are_worth_drawing() {
     let (mut seen, mut cut) = (0, 0);
     for _ in 0..400 {
         let scene = scenes::<1>().new_tree(&mut runner).unwrap().current();
-        let owners = scene.show(|picture| read::<Gray8, Flat, 256, 1>(&mut Scanner::new().start(picture)).owner);
+        let owners = scene.show(|picture| read::<Gray8, Flat, 256, 1, _>(&mut Scanner::new().start(picture)).owner);
         seen += usize::from(owners.iter().any(Option::is_some));
         let meshes = scene.meshes();
         let mut frame = Box::<Frame<'_, 256, 256, 1024, 1, 4, 0>>::default();

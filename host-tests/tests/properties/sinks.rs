@@ -41,7 +41,7 @@ impl OriginDimensions for Panel {
 }
 
 fn drawn<P: Ink>(scene: &Scene) -> Picture<P> {
-    scene.show(|picture| read::<P, DuffBarycentric, 256, 1>(&mut Scanner::new().start(picture)))
+    scene.show(|picture| read::<P, DuffBarycentric, 256, 1, _>(&mut Scanner::new().start(picture)))
 }
 
 /// Random scenes that fill all of their pixels.

@@ -41,7 +41,7 @@ pub(crate) fn soups() -> impl Strategy<Value = (Scene, Vec<Place>)> {
 
 /// The owners of all pixels.
 fn owners(scene: &Scene) -> Vec<Option<Owner>> {
-    scene.show(|picture| read::<Gray8, DuffBarycentric, 1024, 1>(&mut Scanner::new().start(picture)).owner)
+    scene.show(|picture| read::<Gray8, DuffBarycentric, 1024, 1, _>(&mut Scanner::new().start(picture)).owner)
 }
 
 /// 1/z of a triangle's plane as a function of the ray: its product with this vector.
