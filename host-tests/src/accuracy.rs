@@ -26,10 +26,13 @@ pub struct Method {
     /// [`standard`] by this method.
     pub standard: fn(&Mesh, Progress<'_>) -> Result<Vec<Row>>,
     /// Draws a scene with one light in white, by the kind of its light: directional, or in the scene.
-    gray: [fn(&Scene<'_>, &Meshes) -> Result<Picture<Gray8>>; 2],
+    gray: [Draw<Gray8>; 2],
     /// Draws a scene with one directional light in colour.
-    pub color: fn(&Scene<'_>, &Meshes) -> Result<Picture<Rgb888>>,
+    pub color: Draw<Rgb888>,
 }
+
+/// [`library::draw`] by some method.
+pub type Draw<P> = fn(&Scene<'_>, &Meshes) -> Result<Picture<P>>;
 
 /// Is told the number of each frame before it is drawn.
 pub type Progress<'p> = &'p mut dyn FnMut(u32);

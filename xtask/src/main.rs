@@ -10,6 +10,7 @@ mod cycles;
 mod demo;
 mod elf;
 mod firmware;
+mod gallery;
 mod install;
 mod oled;
 mod process;
@@ -38,6 +39,7 @@ enum Command {
     Firmware(firmware::Arguments),
     Cycles(cycles::Arguments),
     Demo(demo::Arguments),
+    Gallery(gallery::Arguments),
     Oled(oled::Arguments),
     Readme(readme::Arguments),
     Test(test::Arguments),
@@ -49,6 +51,7 @@ fn run(command: Command) -> Result<()> {
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
+        Command::Gallery(arguments) => gallery::run(&arguments),
         Command::Oled(arguments) => oled::run(&arguments),
         Command::Readme(arguments) => readme::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),

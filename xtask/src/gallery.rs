@@ -1,0 +1,137 @@
+//! All shading methods in one picture, and their errors in another.
+
+use std::convert::Infallible;
+
+use crate::project::{self, progress};
+use anyhow::Result;
+use embedded_graphics::mono_font::{ascii::FONT_8X13, MonoTextStyle};
+use embedded_graphics::pixelcolor::Rgb888;
+use embedded_graphics::prelude::*;
+use embedded_graphics::primitives::Rectangle;
+use embedded_graphics::text::{Baseline, Text};
+use host_tests::accuracy::METHODS;
+use host_tests::image;
+use host_tests::library::Meshes;
+use host_tests::reference::{render, Camera, Material, Options, Scene};
+use host_tests::scenes::{Case, Illumination, Subject, ORANGE};
+use host_tests::Picture;
+
+/// Draw docs/methods.png, all shading methods side by side, and docs/errors.png, how far each is from the f64 reference, eightfold.
+///
+/// A tile has the teapot of the standard scene, a sphere of 80 triangles, and one triangle with a highlight inside.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {}
+
+/// What is seen in a tile: what it shows, its size in pixels, and the part of its height that is cut off at top and bottom.
+const VIEWS: [(Subject, usize, usize); 3] = [(Subject::T880, 240, 40), (Subject::I80, 120, 0), (Subject::Triangle, 120, 0)];
+/// Where these are in the tile.
+const PLACES: [Point; 3] = [Point::new(0, LABEL), Point::new(0, LABEL + 160), Point::new(120, LABEL + 160)];
+const LABEL: i32 = 16;
+const TILE: Size = Size::new(240, LABEL as u32 + 160 + 120);
+const GAP: u32 = 8;
+const COLUMNS: u32 = 4;
+/// How much errors are enlarged.
+const FACTOR: u32 = 8;
+
+/// `cargo xtask gallery`.
+pub(crate) fn run(_: &Arguments) -> Result<()> {
+    let tiles = METHODS.len() as u32 + 1;
+    let mut methods = Canvas::new(tiles);
+    let mut errors = Canvas::new(tiles);
+    methods.label(0, "f64 reference");
+    errors.label(0, "f64 reference");
+    for (tile, method) in (1..).zip(METHODS) {
+        methods.label(tile, method.name);
+        errors.label(tile, method.name);
+    }
+    for (&(subject, size, cut), place) in VIEWS.iter().zip(PLACES) {
+        let mesh = subject.mesh()?;
+        let case = Case { subject, light: Illumination::Directional, exponent: 32 };
+        let mut scene = case.scene(&mesh, 0);
+        resize(&mut scene, size);
+        scene.objects[0].materials = vec![Material { exponent: case.exponent.into(), ..ORANGE }];
+        let meshes = Meshes::of(&scene)?;
+        let truth = render(&scene, Options::default()).round::<Rgb888>();
+        methods.show(0, place, &truth, cut);
+        for (tile, method) in (1..).zip(METHODS) {
+            progress(format!("{}, {}", subject.name(), method.name));
+            let drawn = (method.color)(&scene, &meshes)?;
+            methods.show(tile, place, &drawn, cut);
+            errors.show(tile, place, &difference(&truth, &drawn), cut);
+        }
+    }
+    for (name, canvas) in [("methods", methods), ("errors", errors)] {
+        let path = project::root().join("docs").join(name).with_extension("png");
+        image::write(&path, &canvas.picture)?;
+        println!("{}", project::shown(&path));
+    }
+    Ok(())
+}
+
+/// The same scene in a picture of `size` × `size` pixels.
+fn resize(scene: &mut Scene<'_>, size: usize) {
+    let Camera { height, focal, .. } = scene.camera;
+    scene.camera = Camera { width: size, height: size, focal: focal * size as f64 / height as f64, ..scene.camera };
+}
+
+/// How far two pictures are apart, enlarged; black where they show different triangles.
+fn difference(truth: &Picture<Rgb888>, drawn: &Picture<Rgb888>) -> Picture<Rgb888> {
+    let mut difference = drawn.clone();
+    let owners = truth.owner.iter().zip(&drawn.owner);
+    for ((pixel, truth), (owner, other)) in difference.color.iter_mut().zip(&truth.color).zip(owners) {
+        let apart = |a: u8, b: u8| (u32::from(a.abs_diff(b)) * FACTOR).min(255) as u8;
+        let all = Rgb888::new(apart(pixel.r(), truth.r()), apart(pixel.g(), truth.g()), apart(pixel.b(), truth.b()));
+        *pixel = if owner == other { all } else { Rgb888::BLACK };
+    }
+    difference
+}
+
+/// Tiles in rows.
+struct Canvas {
+    picture: Picture<Rgb888>,
+}
+
+impl Canvas {
+    fn new(tiles: u32) -> Self {
+        let Size { width, height } = TILE + Size::new_equal(GAP);
+        let (columns, rows) = (COLUMNS.min(tiles), tiles.div_ceil(COLUMNS));
+        Self { picture: Picture::blank((columns * width + GAP) as usize, (rows * height + GAP) as usize, Rgb888::CSS_BLACK) }
+    }
+
+    /// The top left corner of a tile.
+    fn tile(&self, number: u32) -> Point {
+        let step = TILE + Size::new_equal(GAP);
+        Point::new_equal(GAP as i32) + step.component_mul(Size::new(number % COLUMNS, number / COLUMNS))
+    }
+
+    fn label(&mut self, tile: u32, text: &str) {
+        let style = MonoTextStyle::new(&FONT_8X13, Rgb888::WHITE);
+        let Ok(_) = Text::with_baseline(text, self.tile(tile), style, Baseline::Top).draw(self);
+    }
+
+    /// Puts a picture there, without `cut` of its rows at top and bottom.
+    fn show(&mut self, tile: u32, place: Point, picture: &Picture<Rgb888>, cut: usize) {
+        let size = Size::new(picture.width as u32, (picture.height - 2 * cut) as u32);
+        let area = Rectangle::new(self.tile(tile) + place, size);
+        let Ok(()) = self.fill_contiguous(&area, picture.color[cut * picture.width..].iter().copied());
+    }
+}
+
+impl OriginDimensions for Canvas {
+    fn size(&self) -> Size {
+        Size::new(self.picture.width as u32, self.picture.height as u32)
+    }
+}
+
+impl DrawTarget for Canvas {
+    type Color = Rgb888;
+    type Error = Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Infallible> {
+        let inside = self.bounding_box();
+        for Pixel(Point { x, y }, color) in pixels.into_iter().filter(|Pixel(point, _)| inside.contains(*point)) {
+            self.picture.color[y as usize * self.picture.width + x as usize] = color;
+        }
+        Ok(())
+    }
+}
