@@ -23,11 +23,11 @@ use host_tests::Picture;
 pub(crate) struct Arguments {}
 
 /// What is seen in a tile: what it shows, its size in pixels, and the part of its height that is cut off at top and bottom.
-const VIEWS: [(Subject, usize, usize); 3] = [(Subject::T880, 240, 40), (Subject::I80, 120, 0), (Subject::Triangle, 120, 0)];
+const VIEWS: [(Subject, usize, usize); 3] = [(Subject::T880, 240, 24), (Subject::I80, 120, 0), (Subject::Triangle, 120, 0)];
 /// Where these are in the tile.
-const PLACES: [Point; 3] = [Point::new(0, LABEL), Point::new(0, LABEL + 160), Point::new(120, LABEL + 160)];
+const PLACES: [Point; 3] = [Point::new(0, LABEL), Point::new(0, LABEL + 192), Point::new(120, LABEL + 192)];
 const LABEL: i32 = 16;
-const TILE: Size = Size::new(240, LABEL as u32 + 160 + 120);
+const TILE: Size = Size::new(240, LABEL as u32 + 192 + 120);
 const GAP: u32 = 8;
 const COLUMNS: u32 = 4;
 /// How much errors are enlarged.
