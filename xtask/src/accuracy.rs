@@ -100,17 +100,34 @@ fn all(arguments: &Arguments, mut methods: Vec<&'static Method>) -> Result<()> {
         }
         return Ok(());
     }
-    println!("Gray8 against the ideal scene, worst frame measure by measure: PSNR dB / mean / max / over 4 %\n");
+    print!("{}", by_case(&methods, &outcomes));
+    Ok(())
+}
+
+/// The tables of every method on every case, for docs/shading.md.
+///
+/// # Errors
+/// If a case cannot be drawn.
+pub(crate) fn every_case() -> Result<String> {
+    let methods: Vec<_> = METHODS.iter().collect();
+    let outcomes = accuracy::compare(&Case::all().collect::<Vec<_>>(), &methods, |case| progress(case.subject.name()))?;
+    Ok(by_case(&methods, &outcomes))
+}
+
+/// A table for each scene and light.
+fn by_case(methods: &[&Method], outcomes: &[Outcome]) -> String {
+    let mut text =
+        String::from("Gray8 against the ideal scene, worst frame measure by measure: PSNR dB / mean / max / over 4 %\n\n");
     for subject in Subject::ALL {
         for light in Illumination::ALL {
             let these: Vec<_> = outcomes.iter().filter(|at| at.case.subject == subject && at.case.light == light).collect();
             if !these.is_empty() {
-                println!("### {}, {} light, {} frames\n", subject.name(), light.name(), subject.frames().count());
-                println!("{}\n", side_by_side(&methods, &these));
+                text += &format!("**{}, {} light, {} frames**\n\n", subject.name(), light.name(), subject.frames().count());
+                text += &format!("{}\n\n", side_by_side(methods, &these));
             }
         }
     }
-    Ok(())
+    text
 }
 
 /// Methods in rows, exponents in columns.

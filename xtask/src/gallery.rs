@@ -34,7 +34,10 @@ const COLUMNS: u32 = 4;
 const FACTOR: u32 = 8;
 
 /// `cargo xtask gallery`.
-pub(crate) fn run(_: &Arguments) -> Result<()> {
+///
+/// # Errors
+/// If a scene cannot be drawn, or a picture not be written.
+pub(crate) fn run() -> Result<()> {
     let tiles = METHODS.len() as u32 + 1;
     let mut methods = Canvas::new(tiles);
     let mut errors = Canvas::new(tiles);

@@ -51,7 +51,7 @@ fn run(command: Command) -> Result<()> {
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
-        Command::Gallery(arguments) => gallery::run(&arguments),
+        Command::Gallery(_) => gallery::run(),
         Command::Oled(arguments) => oled::run(&arguments),
         Command::Readme(arguments) => readme::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),

@@ -1,22 +1,36 @@
-//! The README's tables and picture.
+//! The tables in README and docs.
 
 use crate::project::{self, progress};
-use crate::{accuracy, cycles};
+use crate::{accuracy, costs, cycles, gallery};
 use anyhow::{Context, Result};
 
 /// Write the README's tables anew, from what is measured now.
 #[derive(clap::Args)]
-pub(crate) struct Arguments {}
+pub(crate) struct Arguments {
+    /// Those of docs/shading.md too, and its pictures; takes long.
+    #[arg(long)]
+    all: bool,
+}
 
 /// `cargo xtask readme`.
-pub(crate) fn run(_: &Arguments) -> Result<()> {
-    let path = project::root().join("README.md");
-    let mut text = std::fs::read_to_string(&path)?;
-    for (mark, table) in [("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?)] {
-        text = replaced(&text, mark, &table).with_context(|| format!("README.md has no place for the table {mark:?}"))?;
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    write("README.md", &[("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?)])?;
+    if arguments.all {
+        gallery::run()?;
+        write("docs/shading.md", &[("accuracy", accuracy::every_case()?), ("costs", costs::text(&[])?)])?;
+    }
+    Ok(())
+}
+
+/// Puts tables into a file, each between the marks of its name.
+fn write(file: &str, tables: &[(&str, String)]) -> Result<()> {
+    let path = project::root().join(file);
+    let mut text = std::fs::read_to_string(&path).with_context(|| file.to_owned())?;
+    for (mark, table) in tables {
+        text = replaced(&text, mark, table.trim_end()).with_context(|| format!("{file} has no place for the table {mark:?}"))?;
     }
     std::fs::write(&path, text)?;
-    progress("README.md is written");
+    progress(format!("{file} is written"));
     Ok(())
 }
 
