@@ -91,8 +91,12 @@ pub use scanner::{Line, Lines, Scanner};
 pub use shade::{
     choose::{ByMaterial, Choose},
     duff_barycentric::DuffBarycentric,
+    duff_differences::DuffDifferences,
+    duff_direct::DuffDirect,
     flat::Flat,
     gouraud::Gouraud,
+    phong::Phong,
+    phong_planes::PhongPlanes,
     Intensity, Paint, Shade,
 };
 pub use sink::{ink::Ink, overlay::Overlay};

@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::{anyhow, Result};
-use beamshade::{DuffBarycentric, Flat, Gouraud, Ink, Light, SceneLight, Shade};
+use beamshade::{Ink, Light, SceneLight, Shade};
 use embedded_graphics::pixelcolor::{Gray8, Rgb565, Rgb888};
 
 use crate::{
@@ -14,9 +14,13 @@ use crate::{
     Format, Measures, Picture,
 };
 
-/// Every shading method, the best first.
-pub const METHODS: &[Method] =
-    &[Method::of::<DuffBarycentric>("duff-barycentric"), Method::of::<Gouraud>("gouraud"), Method::of::<Flat>("flat")];
+macro_rules! methods {
+    ($($name:literal $type:ty,)*) => {
+        /// Every shading method, the most exact first.
+        pub const METHODS: &[Method] = &[$(Method::of::<$type>($name)),*];
+    };
+}
+crate::every_method!(methods);
 
 /// A shading method by name.
 #[derive(Clone, Copy, Debug)]

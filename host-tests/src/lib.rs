@@ -12,6 +12,7 @@
 pub mod accuracy;
 pub mod image;
 pub mod library;
+pub mod methods;
 pub mod reference;
 pub mod scenes;
 pub mod shapes;

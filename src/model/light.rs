@@ -19,6 +19,8 @@ pub trait LightSource: Copy + Debug {
     type Aim: Aim;
     /// How its products with an interpolated normal run over a triangle on the screen.
     type Product: Interpolant;
+    /// What a shading method keeps only where directions change from place to place.
+    type Change<T: Copy + Debug>: Change<T>;
     /// Whether its direction or the viewer's changes from place to place.
     const IN_SCENE: bool;
     /// A light that is off.
@@ -31,6 +33,46 @@ pub trait LightSource: Copy + Debug {
     /// The light as that mesh in that pose sees it, and the viewer.
     #[must_use]
     fn aim(&self, camera: &Camera, mesh: &Mesh<'_>, pose: &Pose) -> Self::Aim;
+}
+
+/// A value that is there only for lights in the scene: an `Option` of it for these, nothing at all for directional ones.
+pub trait Change<T>: Copy + Debug {
+    /// No value.
+    const NONE: Self;
+
+    /// The value, if there is to be one.
+    #[must_use]
+    fn of(make: impl FnOnce() -> T) -> Self;
+
+    /// The value, if there is one.
+    #[must_use]
+    fn get(&self) -> Option<&T>;
+}
+
+impl<T> Change<T> for () {
+    const NONE: Self = ();
+
+    #[inline(always)]
+    fn of(_: impl FnOnce() -> T) -> Self {}
+
+    #[inline(always)]
+    fn get(&self) -> Option<&T> {
+        None
+    }
+}
+
+impl<T: Copy + Debug> Change<T> for Option<T> {
+    const NONE: Self = None;
+
+    #[inline(always)]
+    fn of(make: impl FnOnce() -> T) -> Self {
+        Some(make())
+    }
+
+    #[inline(always)]
+    fn get(&self) -> Option<&T> {
+        self.as_ref()
+    }
 }
 
 /// A light source in the space of an object.
@@ -106,6 +148,7 @@ impl Light {
 impl LightSource for Light {
     type Aim = Far;
     type Product = Plane;
+    type Change<T: Copy + Debug> = ();
     const IN_SCENE: bool = false;
     const OFF: Self = Self::OFF;
 
@@ -195,6 +238,7 @@ impl SceneLight {
 impl LightSource for SceneLight {
     type Aim = Near;
     type Product = Quadratic;
+    type Change<T: Copy + Debug> = Option<T>;
     const IN_SCENE: bool = true;
     const OFF: Self = Self::OFF;
 

@@ -255,14 +255,12 @@ fn steep<const LIGHTS: usize, L: LightSource>(
             *specular = L::Product::through(gradient, [h0, h1, h2], [h01, h12, h20]);
         }
     }
-    let bend = gradient
-        .and_then(|gradient| bend(gradient, edge, triangle.edges))
-        .unwrap_or_else(|| Quadratic { at: bend_at_centroid(triangle), ..Quadratic::ZERO });
-    Cosines::Steep { dots, bend }
+    Cosines::Steep { dots, bend: bend(gradient, edge, triangle.edges) }
 }
 
-/// u, Q28; none for the thinnest triangles where normals bend most.
-fn bend(gradient: &Gradient, mut edge: u32, edges: &[u16; 3]) -> Option<Quadratic> {
+/// u, Q28, given the edge constants and the largest of them; that at the centroid for the thinnest triangles where normals bend
+/// most.
+pub(super) fn bend(gradient: Option<&Gradient>, mut edge: u32, edges: &[u16; 3]) -> Quadratic {
     // Bows of 2e with 13 bits: Q14, and coarser for edges of 1/4 and more.
     let mut coarser = 0;
     while edge >= 1 << 13 {
@@ -270,5 +268,10 @@ fn bend(gradient: &Gradient, mut edge: u32, edges: &[u16; 3]) -> Option<Quadrati
         coarser += 1;
     }
     let bows = edges.map(|e| i32::from(e) >> coarser);
-    (2 * gradient.exponent + 14 + coarser <= Quadratic::MOST).then(|| Quadratic::new(gradient, [0; 3], bows, 14 + coarser))
+    match gradient {
+        Some(gradient) if 2 * gradient.exponent + 14 + coarser <= Quadratic::MOST => {
+            Quadratic::new(gradient, [0; 3], bows, 14 + coarser)
+        }
+        _ => Quadratic { at: bend_at_centroid(edges), ..Quadratic::ZERO },
+    }
 }

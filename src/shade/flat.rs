@@ -15,7 +15,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for Flat {
     const EMPTY: Intensity = Intensity { diffuse: 0, specular: 0 };
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Intensity {
-        let root = inverse_root(bend_at_centroid(triangle));
+        let root = inverse_root(bend_at_centroid(triangle.edges));
         let mut intensity = Intensity::default();
         for ([diffuse, specular], strength) in triangle.centroid().iter().zip(surface.intensities) {
             // Q16 · Q15: a cosine in Q31.
@@ -39,7 +39,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for Flat {
 }
 
 /// `u = 1 − |N|²` at the centroid, Q28: 2/9 of the sum of the edge constants.
-pub(super) fn bend_at_centroid<const LIGHTS: usize, L: LightSource>(triangle: &Triangle<'_, LIGHTS, L>) -> i32 {
-    let sum: u32 = triangle.edges.iter().map(|e| u32::from(*e)).sum();
+pub(super) fn bend_at_centroid(edges: &[u16; 3]) -> i32 {
+    let sum: u32 = edges.iter().map(|e| u32::from(*e)).sum();
     ((sum << 14) / 9) as i32
 }

@@ -10,8 +10,12 @@ use crate::{
 
 pub mod choose;
 pub mod duff_barycentric;
+pub mod duff_differences;
+pub mod duff_direct;
 pub mod flat;
 pub mod gouraud;
+pub mod phong;
+pub mod phong_planes;
 
 /// Light that a surface sends to the eye, before its colours: ambient apart, diffuse and specular each summed over the lights
 /// that reach it; Q14, and clamped just below 2 where several lights together are brighter.

@@ -2,9 +2,10 @@
 
 use crate::count::{self, Count, Counts};
 use crate::cycles::{self, Measured};
-use crate::firmware::{self, Target, MEASURE, METHODS, SCENE, TARGETS};
+use crate::firmware::{self, Target, MEASURE, SCENE, TARGETS};
 use crate::table;
-use anyhow::{bail, ensure, Context, Result};
+use anyhow::{ensure, Context, Result};
+use host_tests::accuracy::{Method, METHODS};
 
 /// A method's costs: for a facet, for a line of it, and for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +71,7 @@ struct Printed {
 /// (printed 64: one reciprocal root is missing).
 const PRINTED: [Printed; 7] = [
     Printed { method: "phong", constant: Cost::new(24.0, 21.0, 46.0), varying: Cost::new(144.0, 45.0, 81.0) },
-    Printed { method: "phong-rotation-independent", constant: Cost::new(73.0, 2.0, 46.0), varying: Cost::new(247.0, 2.0, 81.0) },
+    Printed { method: "phong-planes", constant: Cost::new(73.0, 2.0, 46.0), varying: Cost::new(247.0, 2.0, 81.0) },
     Printed { method: "duff-direct", constant: Cost::new(130.0, 19.0, 32.0), varying: Cost::new(426.0, 67.0, 57.0) },
     Printed { method: "duff-differences", constant: Cost::new(167.0, 7.0, 32.0), varying: Cost::new(581.0, 17.0, 57.0) },
     Printed { method: "bishop-weimer", constant: Cost::new(273.0, 8.0, 12.0), varying: Cost::new(732.0, 8.0, 12.0) },
@@ -97,9 +98,7 @@ struct Row {
 /// # Errors
 /// If one cannot be measured.
 pub(crate) fn run(wanted: &[String]) -> Result<()> {
-    if let Some(unknown) = wanted.iter().find(|name| !METHODS.contains(&name.as_str())) {
-        bail!("there is no method {unknown:?}; there are {}", METHODS.join(", "));
-    }
+    wanted.iter().try_for_each(|name| Method::named(name).map(|_| ()))?;
     println!("{}", text(wanted)?);
     Ok(())
 }
@@ -112,8 +111,8 @@ pub(crate) fn text(wanted: &[String]) -> Result<String> {
     let lengths = lengths()?;
     let mut text = String::new();
     for (target, unit) in TARGETS.iter().zip(["cycles, Cortex-M0+", "instructions, Cortex-M4F"]) {
-        let methods = METHODS.into_iter().filter(|method| wanted.is_empty() || wanted.iter().any(|name| name == method));
-        let rows = methods.map(|method| measure(target, method, &lengths)).collect::<Result<Vec<_>>>()?;
+        let methods = METHODS.iter().filter(|method| wanted.is_empty() || wanted.iter().any(|name| name == method.name));
+        let rows = methods.map(|method| measure(target, method.name, &lengths)).collect::<Result<Vec<_>>>()?;
         text +=
             &format!("Costs of the methods ({unit}); beside them the operations of the paper's Table 2\n\n{}\n\n", costs(&rows));
         for (title, of) in [("constant", false), ("varying", true)] {

@@ -46,9 +46,6 @@ pub(crate) struct Package {
 pub(crate) const SCENE: &str = "t880";
 pub(crate) const METHOD: &str = "duff-barycentric";
 
-/// All shading methods: features of the measuring firmware.
-pub(crate) const METHODS: [&str; 3] = ["flat", "gouraud", "duff-barycentric"];
-
 /// The measuring firmware.
 pub(crate) const MEASURE: Package = Package { path: "xtask/measure", program: "measure" };
 

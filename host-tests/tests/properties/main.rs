@@ -6,6 +6,7 @@ mod accuracy;
 mod capacity;
 mod coverage;
 mod lines;
+mod phong;
 mod scene;
 mod sinks;
 mod total;

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::iter::{repeat_n, zip};
 
 use beamshade::{
-    Background, Camera, Color, Flat, Frame, Full, Light, Material, Mesh, MeshData, Picture, Pose, Rotation, Scanner, Turn,
+    Background, Camera, Color, Flat, Frame, Full, Light, LightSource, Material, Mesh, MeshData, Picture, Pose, Rotation, Scanner,
+    Turn,
 };
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Gray8;
@@ -148,7 +149,17 @@ impl<const LIGHTS: usize> Scene<LIGHTS> {
         meshes: &'m [Mesh<'m>],
         frame: &mut Frame<'m, V, T, L, LIGHTS, O, M>,
     ) -> Vec<Result<(), Full>> {
-        let _ = frame.background(self.background).begin(&self.camera, &self.lights);
+        self.fill_under(&self.lights, meshes, frame)
+    }
+
+    /// The same under other lights.
+    fn fill_under<'m, const V: usize, const T: usize, const L: usize, const O: usize, const M: usize, S: LightSource>(
+        &self,
+        lights: &[S; LIGHTS],
+        meshes: &'m [Mesh<'m>],
+        frame: &mut Frame<'m, V, T, L, LIGHTS, O, M, S>,
+    ) -> Vec<Result<(), Full>> {
+        let _ = frame.background(self.background).begin(&self.camera, lights);
         meshes.iter().zip(&self.objects).map(|(mesh, (_, pose))| frame.add(mesh, pose)).collect()
     }
 
@@ -180,9 +191,14 @@ impl<const LIGHTS: usize> Scene<LIGHTS> {
 
     /// Shows the scene's picture, from a frame with room for everything.
     pub(crate) fn show<T>(&self, see: impl FnOnce(Picture<'_, LIGHTS>) -> T) -> T {
+        self.show_under(&self.lights, see)
+    }
+
+    /// The same under other lights.
+    pub(crate) fn show_under<T, S: LightSource>(&self, lights: &[S; LIGHTS], see: impl FnOnce(Picture<'_, LIGHTS, S>) -> T) -> T {
         let meshes = self.meshes();
-        let mut frame = Box::<Frame<'_, 2048, 1024, 1024, LIGHTS, 8, 1024>>::default();
-        for result in self.fill(&meshes, &mut frame) {
+        let mut frame = Box::<Frame<'_, 2048, 1024, 1024, LIGHTS, 8, 1024, S>>::default();
+        for result in self.fill_under(lights, &meshes, &mut frame) {
             result.unwrap();
         }
         see(frame.picture())

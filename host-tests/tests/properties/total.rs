@@ -1,11 +1,12 @@
 //! No panic, whatever the input; tests are compiled with checks for overflow.
 
 use beamshade::{
-    Background, Camera, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Light, Material, Mesh, Picture, Pose, Scanner,
-    Shade,
+    Background, Camera, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Light, LightSource, Material, Mesh, Picture, Pose,
+    Scanner, SceneLight, Shade,
 };
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb565;
+use host_tests::every_method;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -14,8 +15,8 @@ use crate::cases;
 use crate::scene::{scenes, Scene, Shape};
 
 /// Draws all lines of a picture.
-fn draw<S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(picture: Picture<'_, LIGHTS>) {
-    let mut scanner = Box::<Scanner<ACTIVE, S, LIGHTS>>::default();
+fn draw<S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(picture: Picture<'_, LIGHTS, L>) {
+    let mut scanner = Box::<Scanner<ACTIVE, S, LIGHTS, L>>::default();
     let mut lines = scanner.start(picture);
     let mut dropped = 0;
     for y in 0..picture.viewport().size.height as u16 {
@@ -27,17 +28,23 @@ fn draw<S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(picture: Pic
 
 /// Draws a scene with room for all of it, and with next to none, by each method.
 fn draw_all<const LIGHTS: usize>(scene: &Scene<LIGHTS>) {
-    scene.show(|picture| {
-        draw::<DuffBarycentric, 256, LIGHTS>(picture);
-        draw::<Gouraud, 256, LIGHTS>(picture);
-        draw::<Flat, 256, LIGHTS>(picture);
-    });
+    macro_rules! draw_by_each {
+        ($($name:literal $type:ty,)*) => {
+            |picture, lit| {
+                $(draw::<$type, 256, LIGHTS, Light>(picture);
+                draw::<$type, 256, LIGHTS, SceneLight>(lit);)*
+            }
+        };
+    }
+    let by_each: fn(Picture<'_, LIGHTS>, Picture<'_, LIGHTS, SceneLight>) = every_method!(draw_by_each);
+    let place = [[0.0; 3], [f32::MAX, -1.0, f32::NAN], [0.5, 1.0, -2.0]][scene.objects.len() % 3];
+    scene.show(|picture| scene.show_under(&[SceneLight::point(place); LIGHTS], |lit| by_each(picture, lit)));
     let meshes = scene.meshes();
     let mut small = Frame::<'_, 30, 20, 100, LIGHTS, 2, 6>::new();
     scene.fill(&meshes, &mut small);
-    draw::<Choose<DuffBarycentric, Choose<Gouraud, Flat>>, 5, LIGHTS>(small.picture());
-    draw::<DuffBarycentric, 1, LIGHTS>(small.picture());
-    draw::<Flat, 0, LIGHTS>(small.picture());
+    draw::<Choose<DuffBarycentric, Choose<Gouraud, Flat>>, 5, LIGHTS, Light>(small.picture());
+    draw::<DuffBarycentric, 1, LIGHTS, Light>(small.picture());
+    draw::<Flat, 0, LIGHTS, Light>(small.picture());
 }
 
 /// Normals twice as long as they should be, and edge constants that say they have no length in the middle.
@@ -97,7 +104,7 @@ proptest! {
             let mut frame = Frame::<'_, 16, 16, 48>::new();
             frame.begin(&Camera::new(Size::new(64, 48)), &[Light::OFF]).unwrap();
             let _ = frame.add(&mesh, &Pose::IDENTITY);
-            draw::<DuffBarycentric, 8, 1>(frame.picture());
+            draw::<DuffBarycentric, 8, 1, Light>(frame.picture());
         }
     }
 }

@@ -8,6 +8,14 @@ use embedded_graphics::{
 
 include!(concat!(env!("OUT_DIR"), "/teapot-880.rs"));
 
+#[cfg(feature = "phong")]
+type Method = beamshade::Phong;
+#[cfg(feature = "phong-planes")]
+type Method = beamshade::PhongPlanes;
+#[cfg(feature = "duff-direct")]
+type Method = beamshade::DuffDirect;
+#[cfg(feature = "duff-differences")]
+type Method = beamshade::DuffDifferences;
 #[cfg(feature = "duff-barycentric")]
 type Method = beamshade::DuffBarycentric;
 #[cfg(feature = "gouraud")]

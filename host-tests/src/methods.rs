@@ -1,0 +1,17 @@
+//! The list of all shading methods.
+
+/// Calls a macro with the name and the type of every shading method, the most exact first.
+#[macro_export]
+macro_rules! every_method {
+    ($with:ident) => {
+        $with! {
+            "phong" beamshade::Phong,
+            "phong-planes" beamshade::PhongPlanes,
+            "duff-direct" beamshade::DuffDirect,
+            "duff-differences" beamshade::DuffDifferences,
+            "duff-barycentric" beamshade::DuffBarycentric,
+            "gouraud" beamshade::Gouraud,
+            "flat" beamshade::Flat,
+        }
+    };
+}
