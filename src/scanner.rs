@@ -1,5 +1,7 @@
 //! From a picture to the pixels of line y.
 
+use core::ops::Range;
+
 use embedded_graphics::primitives::Rectangle;
 
 use crate::{
@@ -89,20 +91,27 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     ///
     /// The next line costs a step of each active triangle; a later one that for each line in between, without shading; an
     /// earlier one the walk from the top again. The pixels are the same in whatever order.
+    #[inline(never)]
     pub fn line<P: Ink>(&mut self, y: u16, row: &mut [P]) -> Line {
         if !self.seek(y) {
             return Line { dropped: self.dropped, ..Line::default() };
         }
-        let width = self.picture.geometry.width().min(row.len() as i32);
-        let mut line = Line { active: self.scanner.list.extents().len() as u16, dropped: self.dropped, ..Line::default() };
-        let background = background(&self.picture, y);
-        let mut sweep = Sweep::new(y, width);
+        let Scanner { list, facets, table } = &mut *self.scanner;
+        let picture = &self.picture;
+        let width = picture.geometry.width().min(row.len() as i32);
+        let background = background(picture, y);
+        let pixels = row.get_mut(..width as usize).unwrap_or_default();
+        let mut line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::default() };
         let mut from = 0;
-        while sweep.fill(&mut self.scanner.list, &self.picture.geometry, &mut self.scanner.table) {
-            from = self.shade_table(y, from, background, row, &mut line);
+        if let Some(dressed) = list.extents().first().and_then(|extent| Dressed::new(picture, extent.look(), y.into())) {
+            let (spans, made, bent) = (0, 0, 0);
+            let mut row =
+                Row::<P, S, ACTIVE, LIGHTS, L> { picture, facets, pixels, from, background, dressed, spans, made, bent };
+            Sweep::new(y, width).run(list, &picture.geometry, table, |spans, slots| row.see(spans, slots));
+            (from, line) = (row.from, Line { spans: row.spans, facets: row.made, bent: row.bent, ..line });
         }
-        if from < width {
-            fill(row, from, width, background);
+        if from < pixels.len() {
+            fill(pixels, from, pixels.len(), background);
         }
         line
     }
@@ -112,15 +121,16 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
         if !self.seek(y) {
             return;
         }
-        let mut sweep = Sweep::new(y, self.picture.geometry.width());
-        while sweep.fill(&mut self.scanner.list, &self.picture.geometry, &mut self.scanner.table) {
-            for span in self.scanner.table.spans() {
-                let source = self.scanner.list.get(span.slot).and_then(|active| self.picture.geometry.source(active.id));
+        let Scanner { list, table, .. } = &mut *self.scanner;
+        let geometry = &self.picture.geometry;
+        Sweep::new(y, geometry.width()).run(list, geometry, table, |spans, slots| {
+            for span in spans.iter().filter(|span| !span.is_empty()) {
+                let source = slots.get(usize::from(span.slot())).and_then(|active| geometry.source(active.id));
                 if let Some(source) = source {
-                    see(span.start as u16..span.end as u16, source);
+                    see(span.start() as u16..span.end() as u16, source);
                 }
             }
-        }
+        });
     }
 
     /// Brings the active list to line y; false if the picture has no such line.
@@ -143,51 +153,94 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
         self.line = Some(y);
         true
     }
+}
 
-    /// Shades the table's spans, and the background before each; returns where the last one ends.
+/// A row on its way to be stored, from left to right.
+struct Row<'a, 'p, P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
+    picture: &'a Picture<'p, LIGHTS, L>,
+    facets: &'a mut [S::Facet; ACTIVE],
+    pixels: &'a mut [P],
+    /// The first pixel that is not stored.
+    from: usize,
+    background: Option<Color>,
+    dressed: Dressed<'p, P, LIGHTS>,
+    /// Counts of [`Line`]: spans, facets set up, and of those the bent ones.
+    spans: u16,
+    made: u16,
+    bent: u16,
+}
+
+impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> Row<'_, '_, P, S, ACTIVE, LIGHTS, L> {
+    /// Shades spans that lie in the picture, and the background before each.
     #[inline(never)]
-    fn shade_table<P: Ink>(&mut self, y: u16, mut from: i32, background: Option<Color>, row: &mut [P], line: &mut Line) -> i32 {
-        let Scanner { list, facets, table } = &mut *self.scanner;
-        let picture = &self.picture;
-        let mut dressed: Option<Dressed<'_, P, LIGHTS>> = None;
-        line.spans += table.spans().len() as u16;
-        for &Span { start, end, slot, look } in table.spans() {
-            let (start, end) = (i32::from(start), i32::from(end));
-            if from < start {
-                fill(row, from, start, background);
+    fn see(&mut self, spans: &[Span], slots: &mut [Active; ACTIVE]) {
+        self.spans += spans.len() as u16;
+        for span in spans {
+            let Range { start, end } = span.range();
+            let look = span.look();
+            if start >= end {
+                self.skip();
+                continue;
             }
-            from = end;
-            if dressed.as_ref().is_none_or(|dressed| dressed.look != look) {
-                dressed = Dressed::new(picture, look);
+            if self.from < start {
+                self.fill(start);
             }
-            let Some(Dressed { surface, paint, .. }) = &dressed else { continue };
-            let (Some(active), Some(facet)) = (list.get_mut(slot), facets.get_mut(usize::from(slot))) else { continue };
+            self.from = end;
+            if self.dressed.look != look {
+                self.dress(look);
+            }
+            let dressed = &self.dressed;
+            let slot = usize::from(span.slot());
+            let (Some(active), Some(facet)) = (slots.get_mut(slot), self.facets.get_mut(slot)) else { continue };
             if !active.shaded {
                 active.shaded = true;
-                line.facets += 1;
-                line.bent += u16::from(set_up::<S, LIGHTS, L>(picture, active, surface, facet));
+                self.made += 1;
+                self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, active, &dressed.surface, facet));
             }
-            let Some(pixels) = row.get_mut(start as usize..end as usize) else { continue };
-            shade::<P, S, LIGHTS, L>(facet, surface, paint, start, y.into(), pixels);
+            let Some(pixels) = self.pixels.get_mut(start..end) else { continue };
+            shade::<P, S, LIGHTS, L>(dressed, facet, start as i32, pixels);
         }
-        from
+    }
+
+    /// Does not count a span that is empty.
+    #[cold]
+    #[inline(never)]
+    fn skip(&mut self) {
+        self.spans -= 1;
+    }
+
+    /// Makes another material ready.
+    #[cold]
+    #[inline(never)]
+    fn dress(&mut self, look: u16) {
+        if let Some(dressed) = Dressed::new(self.picture, look, self.dressed.y) {
+            self.dressed = dressed;
+        }
+    }
+
+    /// Fills pixels up to there with the background.
+    #[inline(always)]
+    fn fill(&mut self, to: usize) {
+        fill(self.pixels, self.from, to, self.background);
     }
 }
 
-/// A material made ready.
+/// A material made ready for a line.
 struct Dressed<'p, P: Ink, const LIGHTS: usize> {
     /// Its number.
     look: u16,
+    /// The line.
+    y: i32,
     surface: Surface<'p, LIGHTS>,
     paint: P::Paint<'p>,
 }
 
 impl<'p, P: Ink, const LIGHTS: usize> Dressed<'p, P, LIGHTS> {
     #[inline(never)]
-    fn new<L: LightSource>(picture: &Picture<'p, LIGHTS, L>, look: u16) -> Option<Self> {
+    fn new<L: LightSource>(picture: &Picture<'p, LIGHTS, L>, look: u16, y: i32) -> Option<Self> {
         let material = picture.geometry.material(look)?;
         let surface = Surface { material, intensities: picture.intensities };
-        Some(Self { look, surface, paint: P::paint(material) })
+        Some(Self { look, y, surface, paint: P::paint(material) })
     }
 }
 
@@ -202,8 +255,8 @@ fn background<const LIGHTS: usize, L: LightSource>(picture: &Picture<'_, LIGHTS,
 
 /// Fills pixels with the background.
 #[inline(never)]
-fn fill<P: Ink>(row: &mut [P], from: i32, to: i32, background: Option<Color>) {
-    let (Some(color), Some(pixels)) = (background, row.get_mut(from as usize..to as usize)) else { return };
+fn fill<P: Ink>(row: &mut [P], from: usize, to: usize, background: Option<Color>) {
+    let (Some(color), Some(pixels)) = (background, row.get_mut(from..to)) else { return };
     let pixel = P::plain(color);
     let mut eights = pixels.chunks_exact_mut(8);
     for eight in &mut eights {
@@ -215,14 +268,12 @@ fn fill<P: Ink>(row: &mut [P], from: i32, to: i32, background: Option<Color>) {
 /// Shades one span.
 #[inline(never)]
 fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
+    dressed: &Dressed<'_, P, LIGHTS>,
     facet: &S::Facet,
-    surface: &Surface<'_, LIGHTS>,
-    paint: &P::Paint<'_>,
     x: i32,
-    y: i32,
     pixels: &mut [P],
 ) {
-    S::run(S::start(facet, x, y), surface, pixels, paint);
+    S::run(S::start(facet, x, dressed.y), &dressed.surface, pixels, &dressed.paint);
 }
 
 /// Sets up the facet of a triangle; whether its normals bend beyond what shading follows.

@@ -130,9 +130,8 @@ impl Active {
     #[inline(always)]
     pub(crate) fn step(&mut self, span: &mut Span) {
         self.left.step();
-        span.start = self.left.x();
         self.right.step();
-        span.end = self.right.x();
+        *span = span.with(self.left.x().into(), self.right.x().into());
     }
 
     /// The first pixel that it covers on the line, and the first one after; no pixels if the latter is not larger.

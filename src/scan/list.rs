@@ -6,9 +6,6 @@ use heapless::Vec;
 
 use super::{active::Active, bucket::TriangleId, geometry::Geometry, table::Span, vertex::Vertex};
 
-/// The slot of a triangle that ended.
-const NOWHERE: u16 = u16::MAX;
-
 /// Triangles put in their places at once.
 const BATCH: usize = 8;
 
@@ -41,14 +38,15 @@ impl<const N: usize> ActiveList<N> {
         &self.order
     }
 
+    /// The extents, and the triangles in their slots.
     #[inline(always)]
-    pub(crate) fn get(&self, slot: u16) -> Option<&Active> {
-        self.slots.get(usize::from(slot))
+    pub(crate) fn split(&mut self) -> (&[Span], &mut [Active; N]) {
+        (&self.order, &mut self.slots)
     }
 
     #[inline(always)]
-    pub(crate) fn get_mut(&mut self, slot: u16) -> Option<&mut Active> {
-        self.slots.get_mut(usize::from(slot))
+    pub(crate) fn get(&self, slot: u16) -> Option<&Active> {
+        self.slots.get(usize::from(slot))
     }
 
     /// On to line `line`, the next one: steps all, lets go of those that ended, takes in those that start. Returns the number
@@ -57,10 +55,11 @@ impl<const N: usize> ActiveList<N> {
     pub(crate) fn advance<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, L>) -> u16 {
         let free = self.free;
         self.step(line.into(), geometry.vertices);
-        if self.free != free {
-            self.order.retain(|span| span.slot != NOWHERE);
+        if self.free == free {
+            self.sort();
+        } else {
+            self.sort_those_left();
         }
-        self.sort();
         self.enter(line, geometry)
     }
 
@@ -68,12 +67,12 @@ impl<const N: usize> ActiveList<N> {
     #[inline(never)]
     fn step<const L: usize>(&mut self, line: u32, vertices: &[Vertex<L>]) {
         for span in &mut self.order {
-            let Some(active) = self.slots.get_mut(usize::from(span.slot)) else { break };
+            let Some(active) = self.slots.get_mut(usize::from(span.slot())) else { break };
             if active.turns(line) {
                 if active.ends(line) {
                     active.next = self.free;
-                    self.free = span.slot;
-                    span.slot = NOWHERE;
+                    self.free = span.slot();
+                    *span = Span::NONE;
                     continue;
                 }
                 active.bend(line, vertices);
@@ -86,17 +85,40 @@ impl<const N: usize> ActiveList<N> {
     #[inline(never)]
     fn sort(&mut self) {
         let places = Cell::from_mut(self.order.as_mut_slice()).as_slice_of_cells();
-        let mut before = i32::MIN;
+        let mut before = Span::LEFTMOST;
         let mut rest = places;
         while let [place, after @ ..] = rest {
             rest = after;
-            let start = i32::from(place.get().start);
-            if start < before {
+            let span = place.get();
+            if before.is_after(span) {
                 sink(places.get(..places.len() - rest.len()).unwrap_or_default());
             } else {
-                before = start;
+                before = span;
             }
         }
+    }
+
+    /// The same where some ended, which are let go.
+    #[inline(never)]
+    fn sort_those_left(&mut self) {
+        let places = Cell::from_mut(self.order.as_mut_slice()).as_slice_of_cells();
+        let mut free = places.iter();
+        let mut before = Span::LEFTMOST;
+        for place in places {
+            let span = place.get();
+            if span.is_none() {
+                continue;
+            }
+            let Some(place) = free.next() else { break };
+            place.set(span);
+            if before.is_after(span) {
+                sink(places.get(..places.len() - free.len()).unwrap_or_default());
+            } else {
+                before = span;
+            }
+        }
+        let left = places.len() - free.len();
+        self.order.truncate(left);
     }
 
     /// Takes in the triangles that start on line `line`. Returns the number of those left out.
@@ -122,8 +144,8 @@ impl<const N: usize> ActiveList<N> {
             if let Some(look) = active.begin(id, line, geometry) {
                 self.free = active.next;
                 let (start, end) = active.extent();
-                let span = Span { start, end, slot, look };
-                let misplaced = new.last().is_some_and(|last: &Span| start < last.start);
+                let span = Span::new(start, end, slot, look);
+                let misplaced = new.last().is_some_and(|last: &Span| last.is_after(span));
                 let _ = new.push(span);
                 let _ = self.order.push(span);
                 if misplaced {
@@ -151,7 +173,7 @@ impl<const N: usize> ActiveList<N> {
     /// Takes a triangle out.
     fn remove(&mut self, place: usize) {
         if place < self.order.len() {
-            let Span { slot, .. } = self.order.remove(place);
+            let slot = self.order.remove(place).slot();
             if let Some(active) = self.slots.get_mut(usize::from(slot)) {
                 active.next = self.free;
                 self.free = slot;
@@ -170,8 +192,8 @@ impl<const N: usize> ActiveList<N> {
         };
         let mut least = rank(id);
         let mut victim = None;
-        for (place, Span { slot, .. }) in self.order.iter().enumerate() {
-            let Some(active) = self.get(*slot) else { continue };
+        for (place, span) in self.order.iter().enumerate() {
+            let Some(active) = self.get(span.slot()) else { continue };
             let other = rank(active.id);
             if other < least {
                 (least, victim) = (other, Some(place));
@@ -196,7 +218,7 @@ fn settle<'a>(mut places: &'a [Cell<Span>], mut others: &'a [Cell<Span>], span: 
     while let [left @ .., place] = places {
         places = left;
         match others {
-            [left @ .., other] if other.get().start > span.start => {
+            [left @ .., other] if other.get().is_after(span) => {
                 place.set(other.get());
                 others = left;
             }

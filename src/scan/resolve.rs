@@ -3,6 +3,7 @@
 use heapless::Vec;
 
 use super::{
+    active::Active,
     bucket::TriangleId,
     geometry::Geometry,
     list::ActiveList,
@@ -34,113 +35,110 @@ impl<const N: usize> Sweep<N> {
         Self { line, width, x: 0, next: 0, open: Vec::new() }
     }
 
-    /// Puts the next spans into the table, until the line ends or the table is full; whether there are any.
+    /// Walks the line, and hands what is seen to `see`, run by run, with all slots: disjoint spans in the picture, from left to
+    /// right, some of them empty. Where triangles lie beside each other these are their extents themselves.
     #[inline(always)]
-    pub(crate) fn fill<const L: usize>(
-        &mut self,
+    pub(crate) fn run<const L: usize>(
+        mut self,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, L>,
         table: &mut Table<N>,
-    ) -> bool {
-        table.clear();
-        if self.x < self.width {
-            self.resolve(list, geometry, table);
-        }
-        !table.spans().is_empty()
-    }
-
-    #[inline(never)]
-    fn resolve<const L: usize>(&mut self, list: &mut ActiveList<N>, geometry: &Geometry<'_, L>, table: &mut Table<N>) {
-        while self.x < self.width && !table.is_full() {
+        mut see: impl FnMut(&[Span], &mut [Active; N]),
+    ) {
+        let (extents, slots) = list.split();
+        while self.x < self.width {
+            let run = self.alone(extents);
+            if !run.is_empty() {
+                see(run, slots);
+            }
             if self.open.is_empty() {
-                self.alone(list.extents(), table);
+                break;
             }
-            if !self.open.is_empty() {
-                self.covered(list, geometry, table);
+            while self.x < self.width && !self.open.is_empty() {
+                table.clear();
+                self.covered(extents, slots, geometry, table);
+                see(table.spans(), slots);
             }
         }
     }
 
-    /// Where none is open: sees one triangle after the other, up to one that the next one overlaps, which is open then.
-    #[inline(always)]
-    fn alone(&mut self, extents: &[Span], table: &mut Table<N>) {
-        let (mut x, mut until) = (self.width, self.x);
-        let mut rest = extents.get(self.next..).unwrap_or_default();
-        let mut free = table.free();
-        let overlapped = loop {
-            let [extent, after @ ..] = rest else { break false };
-            let (start, end) = (i32::from(extent.start).max(0), i32::from(extent.end));
-            if start < end {
-                if start < until {
-                    x = start;
-                    break true;
-                }
-                let Some(span) = free.next() else {
-                    x = start;
-                    break false;
-                };
-                *span = Span { start: start as i16, ..*extent };
-                until = end;
-            }
-            rest = after;
-        };
-        let left = free.len();
-        table.keep(left);
-        (self.x, self.next) = (x, extents.len() - rest.len());
-        if x >= self.width {
-            // Maybe right of the picture.
-            while table.spans().last().is_some_and(|last| i32::from(last.end) > self.width) {
-                table.cut(self.width);
-            }
-        } else if overlapped {
-            let begun = extents.get(..self.next).unwrap_or_default();
-            let front = table.spans().last().map(|span| span.slot);
-            if let Some(place) = begun.iter().rposition(|extent| Some(extent.slot) == front) {
-                self.wait(place);
+    /// Where none is open: the triangles that lie beside each other, up to one that the next one overlaps or that reaches out of
+    /// the picture, which is open then. A loop of its own, as short as can be: most triangles come this way.
+    #[inline(never)]
+    fn alone<'a>(&mut self, extents: &'a [Span]) -> &'a [Span] {
+        let rest = extents.get(self.next..).unwrap_or_default();
+        let mut until = self.x;
+        let mut after = rest.iter();
+        let mut place = None;
+        while let Some(extent) = after.next() {
+            if !extent.starts_before(until) {
+                until = extent.end();
+            } else if !extent.is_empty() {
+                place = Some(rest.len() - after.len() - 1);
+                break;
             }
         }
+        let mut run = rest.get(..place.unwrap_or(rest.len())).unwrap_or_default();
+        if until > self.width {
+            place = run.iter().position(|extent| extent.end() > self.width);
+        } else if place.is_some() {
+            place = run.iter().rposition(|extent| !extent.is_empty()).or(place);
+        }
+        if let Some(place) = place {
+            run = run.get(..place).unwrap_or(run);
+            self.x = rest.get(place).map_or(self.width, |extent| extent.start().max(0));
+            self.wait(self.next + place);
+            self.next += place + 1;
+        }
+        run
     }
 
     /// Where some are open: sees one triangle after the other, until none is open, or the table is full.
     #[inline(never)]
-    fn covered<const L: usize>(&mut self, list: &mut ActiveList<N>, geometry: &Geometry<'_, L>, table: &mut Table<N>) {
+    fn covered<const L: usize>(
+        &mut self,
+        extents: &[Span],
+        slots: &mut [Active; N],
+        geometry: &Geometry<'_, L>,
+        table: &mut Table<N>,
+    ) {
         let Self { width, mut x, mut next, .. } = *self;
         // What is nearer than this is in front of all open ones.
         let mut bound = i32::MAX;
         while x < width && !self.open.is_empty() {
             let mut until = width;
             let mut place = next;
-            if Open::new(next, list).is_some_and(|other| other.start <= x && other.end > x && other.far > bound) {
+            if Open::new(next, extents, slots).is_some_and(|other| other.start <= x && other.end > x && other.far > bound) {
                 next += 1;
             } else {
                 bound = 0;
                 if self.open.len() > 1 {
-                    (until, bound) = self.elect(x, list, geometry);
+                    (until, bound) = self.elect(x, extents, slots, geometry);
                 }
                 place = self.open.pop().map_or(usize::MAX, usize::from);
             }
-            let Some(mut front) = Open::new(place, list).filter(|front| front.end > x) else { break };
+            let Some(mut front) = Open::new(place, extents, slots).filter(|front| front.end > x) else { break };
             until = until.min(front.end);
-            let Some(extent) = list.extents().get(front.place) else { break };
-            if !table.resume(Span { start: x as i16, end: until as i16, ..*extent }) {
+            let Some(extent) = extents.get(front.place) else { break };
+            if !table.resume(extent.with(x, until)) {
                 self.wait(front.place);
                 break;
             }
-            while let Some(extent) = list.extents().get(next) {
-                let start = i32::from(extent.start).max(0);
+            while let Some(extent) = extents.get(next) {
+                let start = extent.start().max(0);
                 if start >= until {
                     break;
                 }
                 next += 1;
-                if i32::from(extent.end) <= start {
+                if extent.end() <= start {
                     continue;
                 }
-                let Some(other) = Open::new(next - 1, list) else { break };
+                let Some(other) = Open::new(next - 1, extents, slots) else { break };
                 let (mut ahead, mut crossing) = (false, i32::MAX);
                 if front.far <= other.near {
                     ahead = true;
                     if other.far <= front.near {
-                        (ahead, crossing) = self.duel([other.place, front.place], start, list, geometry);
+                        (ahead, crossing) = self.duel([other.place, front.place], start, extents, slots, geometry);
                     }
                 }
                 if !ahead {
@@ -164,8 +162,8 @@ impl<const N: usize> Sweep<N> {
                 }
                 table.cut(start);
                 until = other.end.min(crossing).min(width);
-                let Some(extent) = list.extents().get(other.place) else { break };
-                table.push(Span { start: start as i16, end: until as i16, ..*extent });
+                let Some(extent) = extents.get(other.place) else { break };
+                table.push(extent.with(start, until));
                 front = other;
             }
             x = until;
@@ -187,18 +185,24 @@ impl<const N: usize> Sweep<N> {
     /// Of several open ones, brings the nearest at x to the end, and lets go of those that are never seen again. Returns where
     /// the first of the others crosses it, and the nearness of the nearest of these.
     #[inline(never)]
-    fn elect<const L: usize>(&mut self, x: i32, list: &mut ActiveList<N>, geometry: &Geometry<'_, L>) -> (i32, i32) {
+    fn elect<const L: usize>(
+        &mut self,
+        x: i32,
+        extents: &[Span],
+        slots: &mut [Active; N],
+        geometry: &Geometry<'_, L>,
+    ) -> (i32, i32) {
         let mut front = Open::NONE;
-        while let Some(other) = self.open.pop().and_then(|place| Open::new(place.into(), list)) {
+        while let Some(other) = self.open.pop().and_then(|place| Open::new(place.into(), extents, slots)) {
             front = other;
             if front.end > x {
                 break;
             }
         }
         for i in 0..self.open.len() {
-            let Some(other) = self.open.get(i).and_then(|place| Open::new((*place).into(), list)) else { break };
+            let Some(other) = self.open.get(i).and_then(|place| Open::new((*place).into(), extents, slots)) else { break };
             let near = other.end > x && front.far <= other.near;
-            if near && (other.far > front.near || self.duel([other.place, front.place], x, list, geometry).0) {
+            if near && (other.far > front.near || self.duel([other.place, front.place], x, extents, slots, geometry).0) {
                 if let Some(place) = self.open.get_mut(i) {
                     *place = front.place as u16;
                 }
@@ -208,10 +212,10 @@ impl<const N: usize> Sweep<N> {
         let (mut until, mut bound) = (self.width, 0);
         let mut kept = 0;
         for i in 0..self.open.len() {
-            let Some(other) = self.open.get(i).and_then(|place| Open::new((*place).into(), list)) else { break };
+            let Some(other) = self.open.get(i).and_then(|place| Open::new((*place).into(), extents, slots)) else { break };
             let mut crossing = i32::MAX;
             if other.end > x && front.far <= other.near {
-                (_, crossing) = self.duel([other.place, front.place], x, list, geometry);
+                (_, crossing) = self.duel([other.place, front.place], x, extents, slots, geometry);
             }
             if other.end > front.end || crossing < i32::MAX {
                 if let Some(place) = self.open.get_mut(kept) {
@@ -234,21 +238,21 @@ impl<const N: usize> Sweep<N> {
         &self,
         [other, front]: [usize; 2],
         x: i32,
-        list: &mut ActiveList<N>,
+        extents: &[Span],
+        slots: &mut [Active; N],
         geometry: &Geometry<'_, L>,
     ) -> (bool, i32) {
         const NEVER: (bool, i32) = (false, i32::MAX);
-        let extents = list.extents();
         let (Some(other), Some(front)) = (extents.get(other), extents.get(front)) else { return NEVER };
-        let last = i32::from(other.end.min(front.end)).min(self.width) - 1;
-        let slots = [other.slot, front.slot];
-        for slot in slots {
-            match list.get_mut(slot) {
+        let last = other.end().min(front.end()).min(self.width) - 1;
+        let pair = [other.slot(), front.slot()];
+        for slot in pair {
+            match slots.get_mut(usize::from(slot)) {
                 Some(active) if !active.deep => active.deepen(geometry),
                 _ => {}
             }
         }
-        let [Some(other), Some(front)] = slots.map(|slot| list.get(slot)) else { return NEVER };
+        let [Some(other), Some(front)] = pair.map(|slot| slots.get(usize::from(slot))) else { return NEVER };
         let wins = || wins(other.id, front.id, geometry);
         let is_ahead = |lead: i32| lead > 0 || lead == 0 && wins();
         let lead = other.depth_at(x, self.line).wrapping_sub(front.depth_at(x, self.line));
@@ -285,10 +289,10 @@ impl Open {
     const NONE: Self = Self { place: usize::MAX, start: 0, end: i32::MIN, far: -1, near: -1 };
 
     #[inline(always)]
-    fn new<const N: usize>(place: usize, list: &ActiveList<N>) -> Option<Self> {
-        let Span { start, end, slot, .. } = *list.extents().get(place)?;
-        let [far, near] = list.get(slot)?.reach();
-        Some(Self { place, start: start.into(), end: end.into(), far, near })
+    fn new<const N: usize>(place: usize, extents: &[Span], slots: &[Active; N]) -> Option<Self> {
+        let extent = extents.get(place)?;
+        let [far, near] = slots.get(usize::from(extent.slot()))?.reach();
+        Some(Self { place, start: extent.start(), end: extent.end(), far, near })
     }
 }
 

@@ -1,17 +1,91 @@
 //! The span table of a line.
 
-/// A run of pixels of one triangle.
+use core::ops::Range;
+
+/// A run of pixels of one triangle; no pixels if it ends where it starts. In two words, so that it is moved and compared fast.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(align(4))]
 pub struct Span {
+    /// The first pixel in the upper half, the first one after it in the lower.
+    pixels: i32,
+    /// The number of its material in the upper half, the slot of its triangle in the lower.
+    source: u32,
+}
+
+impl Span {
+    /// A span of no triangle.
+    pub(crate) const NONE: Self = Self { pixels: 0, source: u32::MAX };
+
+    /// No span starts left of it.
+    pub(crate) const LEFTMOST: Self = Self { pixels: i32::MIN, ..Self::NONE };
+
+    #[inline(always)]
+    pub(crate) const fn new(start: i16, end: i16, slot: u16, look: u16) -> Self {
+        Self { pixels: (start as i32) << 16 | end as u16 as i32, source: (look as u32) << 16 | slot as u32 }
+    }
+
+    /// The same triangle's span from there to there.
+    #[inline(always)]
+    pub(crate) const fn with(self, start: i32, end: i32) -> Self {
+        Self { pixels: start << 16 | end as u16 as i32, ..self }
+    }
+
     /// The first pixel.
-    pub start: i16,
+    #[inline(always)]
+    #[must_use]
+    pub const fn start(self) -> i32 {
+        self.pixels >> 16
+    }
+
     /// The first pixel after it.
-    pub end: i16,
+    #[inline(always)]
+    #[must_use]
+    pub const fn end(self) -> i32 {
+        self.pixels as i16 as i32
+    }
+
+    /// Its pixels in a row, if it lies in the picture.
+    #[inline(always)]
+    #[must_use]
+    pub const fn range(self) -> Range<usize> {
+        self.start() as u16 as usize..self.end() as u16 as usize
+    }
+
     /// The slot of the triangle among those that cross the line.
-    pub(crate) slot: u16,
+    #[inline(always)]
+    pub(crate) const fn slot(self) -> u16 {
+        self.source as u16
+    }
+
     /// The number of its material in the picture.
-    pub(crate) look: u16,
+    #[inline(always)]
+    pub(crate) const fn look(self) -> u16 {
+        (self.source >> 16) as u16
+    }
+
+    /// Whether it has no pixels.
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.start() >= self.end()
+    }
+
+    /// Whether it is of no triangle: no slot has this number.
+    #[inline(always)]
+    pub(crate) const fn is_none(self) -> bool {
+        self.source == u32::MAX
+    }
+
+    /// Whether it comes after the other one: starts right of it, or starts where that does and ends right of it.
+    #[inline(always)]
+    pub(crate) const fn is_after(self, other: Self) -> bool {
+        self.pixels > other.pixels
+    }
+
+    /// Whether it starts before this pixel.
+    #[inline(always)]
+    pub(crate) const fn starts_before(self, x: i32) -> bool {
+        self.pixels < x << 16
+    }
 }
 
 /// Disjoint spans of one line, left to right, none of them empty, gaps showing the background.
@@ -23,7 +97,7 @@ pub(crate) struct Table<const SPANS: usize> {
 
 impl<const SPANS: usize> Table<SPANS> {
     pub(crate) const fn new() -> Self {
-        Self { spans: [Span { start: 0, end: 0, slot: 0, look: 0 }; SPANS], count: 0 }
+        Self { spans: [Span { pixels: 0, source: 0 }; SPANS], count: 0 }
     }
 
     pub(crate) fn clear(&mut self) {
@@ -54,23 +128,11 @@ impl<const SPANS: usize> Table<SPANS> {
         true
     }
 
-    /// The free places; [`keep`](Self::keep) says how many of them are left.
-    #[inline(always)]
-    pub(crate) fn free(&mut self) -> core::slice::IterMut<'_, Span> {
-        self.spans.get_mut(self.count..).unwrap_or_default().iter_mut()
-    }
-
-    /// Takes what was put into the free places, but for the last so many.
-    #[inline(always)]
-    pub(crate) fn keep(&mut self, free: usize) {
-        self.count = SPANS.saturating_sub(free);
-    }
-
     /// Adds a span, or lets the last one go on if it is of the same triangle. False if there is no room.
     #[inline(always)]
     pub(crate) fn resume(&mut self, span: Span) -> bool {
         match self.last() {
-            Some(last) if last.slot == span.slot => last.end = span.end,
+            Some(last) if last.source == span.source => *last = last.with(last.start(), span.end()),
             _ => return self.push(span),
         }
         true
@@ -80,7 +142,7 @@ impl<const SPANS: usize> Table<SPANS> {
     #[inline(always)]
     pub(crate) fn cut(&mut self, x: i32) {
         match self.last() {
-            Some(last) if i32::from(last.start) < x => last.end = x as i16,
+            Some(last) if last.start() < x => *last = last.with(last.start(), x),
             Some(_) => self.count -= 1,
             None => {}
         }
