@@ -61,7 +61,13 @@ impl Gradient {
         if size < least {
             return None;
         }
-        let inverse = Reciprocal::of(size);
+        // At most 2²⁷; a few steps here, too.
+        let (mut whole, mut zeros) = (size << 4, 4);
+        while whole >> 31 == 0 {
+            whole <<= 1;
+            zeros += 1;
+        }
+        let inverse = Reciprocal { mantissa: Reciprocal::mantissa(whole), zeros };
         let [x, y] = if area < 0 { [[-by, ay], [bx, -ax]] } else { [[by, -ay], [-bx, ax]] };
         // From corner 0 to the centre of its pixel.
         let [fx, fy] = [p0.x, p0.y].map(|place| SUBPIXELS / 2 - (place & (SUBPIXELS - 1)));
