@@ -28,7 +28,8 @@ use crate::{
 ///
 /// It owns its memory: 12 bytes a vertex (8 and 4 for each light), 4 a triangle that faces the eye and touches the picture,
 /// 2 a line. Meshes are borrowed. `OBJECTS` counts objects in sight; `MADE` triangles and their corners, which take the place
-/// of vertices, come from clipping at the near plane and at 1535 pixels from the picture's centre.
+/// of vertices, come from clipping at the near plane and at 1535 pixels from the picture's centre, and from
+/// [splitting](Frame::add_split) where a highlight may lie.
 #[derive(Clone, Debug)]
 pub struct Frame<
     'm,
@@ -40,18 +41,18 @@ pub struct Frame<
     const MADE: usize = 16,
     L: LightSource = Light,
 > {
-    camera: Camera,
+    pub(crate) camera: Camera,
     background: Background,
     lights: [L; LIGHTS],
-    intensities: [u16; LIGHTS],
-    vertices: [Vertex<LIGHTS>; VERTICES],
+    pub(crate) intensities: [u16; LIGHTS],
+    pub(crate) vertices: [Vertex<LIGHTS>; VERTICES],
     /// Number of vertices that are there.
-    used: usize,
-    buckets: Buckets<TRIANGLES, LINES>,
-    objects: Vec<Object<'m>, OBJECTS>,
+    pub(crate) used: usize,
+    pub(crate) buckets: Buckets<TRIANGLES, LINES>,
+    pub(crate) objects: Vec<Object<'m>, OBJECTS>,
     /// The lights as each object sees them.
-    aims: Vec<[L::Aim; LIGHTS], OBJECTS>,
-    made: Vec<Made, MADE>,
+    pub(crate) aims: Vec<[L::Aim; LIGHTS], OBJECTS>,
+    pub(crate) made: Vec<Made, MADE>,
     /// Objects added, those out of sight included.
     added: u16,
     /// Triangles of the objects in sight.
@@ -398,9 +399,9 @@ struct Tally {
 
 /// How many triangles that can cover a pixel got a place.
 #[derive(Default)]
-struct Sorted {
-    fitted: u16,
-    left_out: u16,
+pub(crate) struct Sorted {
+    pub(crate) fitted: u16,
+    pub(crate) left_out: u16,
 }
 
 impl core::ops::AddAssign for Sorted {
@@ -430,12 +431,12 @@ fn is_seen<const LIGHTS: usize>([a, b, c]: [&Vertex<LIGHTS>; 3], double_sided: b
 
 /// The triangles that are to be drawn, by the line on which they start.
 #[derive(Clone, Debug)]
-struct Buckets<const TRIANGLES: usize, const LINES: usize> {
+pub(crate) struct Buckets<const TRIANGLES: usize, const LINES: usize> {
     viewport: Rectangle,
     heads: [u16; LINES],
-    kept: [Kept; TRIANGLES],
+    pub(crate) kept: [Kept; TRIANGLES],
     /// Number of triangles that are kept.
-    used: usize,
+    pub(crate) used: usize,
 }
 
 impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
@@ -453,7 +454,7 @@ impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
 
     /// Sorts triangles with consecutive numbers and projected corners, as far as they are seen.
     #[inline(never)]
-    fn sort<const LIGHTS: usize>(
+    pub(crate) fn sort<const LIGHTS: usize>(
         &mut self,
         vertices: &[Vertex<LIGHTS>],
         triangles: &[[u16; 3]],
@@ -484,7 +485,7 @@ impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
     }
 
     /// Takes back all triangles after so many.
-    fn forget(&mut self, used: usize) {
+    pub(crate) fn forget(&mut self, used: usize) {
         while self.used > used {
             let place = self.used as u16;
             self.used -= 1;

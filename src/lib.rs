@@ -13,6 +13,7 @@
 //! 5. [`shade`]: one file for each method, behind one trait. The default, [`shade::duff_barycentric`], is exact Phong shading for
 //!    a few additions, products and look-ups a pixel.
 //! 6. [`sink`]: pixel encodings, the overlay, and whole frames to any embedded-graphics display.
+//! 7. [`split`]: other ways into a frame, by which triangles with a highlight on them are split for Gouraud shading.
 //!
 //! The application owns every buffer and pulls lines; nothing here waits, calls back, allocates, panics, or knows a peripheral.
 //!
@@ -73,6 +74,7 @@ pub mod scan;
 pub mod scanner;
 pub mod shade;
 pub mod sink;
+pub mod split;
 
 pub use frame::{Frame, Full};
 pub use math::{angle::Turn, rotation::Rotation, Length};
@@ -89,7 +91,7 @@ pub use scan::{
 };
 pub use scanner::{Line, Lines, Scanner};
 pub use shade::{
-    choose::{ByMaterial, Choose},
+    choose::{ByHighlight, ByMaterial, Choose, GouraudPhong},
     duff_barycentric::DuffBarycentric,
     duff_differences::DuffDifferences,
     duff_direct::DuffDirect,
@@ -100,3 +102,4 @@ pub use shade::{
     Intensity, Paint, Shade,
 };
 pub use sink::{ink::Ink, overlay::Overlay};
+pub use split::{highlight::AtHighlight, regular::Regular, Split, Splits};

@@ -57,7 +57,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
 pub struct Line {
     /// Triangles that cross it.
     pub active: u16,
-    /// Visible spans; pieces that clipping made of one triangle count apart.
+    /// Visible spans; pieces that clipping or splitting made of one triangle count apart.
     pub spans: u16,
     /// Facets set up on it.
     pub facets: u16,

@@ -3,8 +3,8 @@
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use anyhow::{anyhow, Result};
-use beamshade::{Ink, Light, SceneLight, Shade};
+use anyhow::{anyhow, bail, Result};
+use beamshade::{AtHighlight, Gouraud, Ink, Light, Regular, SceneLight, Shade};
 use embedded_graphics::pixelcolor::{Gray8, Rgb565, Rgb888};
 
 use crate::{
@@ -14,12 +14,32 @@ use crate::{
     Format, Measures, Picture,
 };
 
+/// Gouraud shading of triangles split that way.
+macro_rules! split_method {
+    ($name:literal, $split:expr) => {
+        Method {
+            name: $name,
+            standard: |_, _| bail!(concat!($name, " is compared by --all alone")),
+            gray: [
+                |scene, meshes| Ok(library::draw_split::<Gray8, Gouraud, 1, Light>(scene, meshes, &$split)?.0),
+                |scene, meshes| Ok(library::draw_split::<Gray8, Gouraud, 1, SceneLight>(scene, meshes, &$split)?.0),
+            ],
+            color: |scene, meshes| Ok(library::draw_split::<Rgb888, Gouraud, 1, Light>(scene, meshes, &$split)?.0),
+        }
+    };
+}
+
 macro_rules! methods {
     ($($name:literal $type:ty,)*) => {
         /// Every shading method, the most exact first.
-        pub const METHODS: &[Method] = &[$(Method::of::<$type>($name)),*];
+        pub const METHODS: &[Method] = &[
+            $(Method::of::<$type>($name),)*
+            split_method!("regular-split", Regular { pixels: 32 }),
+            split_method!("highlight-split", AtHighlight::new(0.3)),
+        ];
     };
 }
+
 crate::every_method!(methods);
 
 /// A shading method by name.

@@ -2,7 +2,8 @@
 
 use anyhow::{bail, ensure, Context, Result};
 use beamshade::{
-    Background, Camera, Color, Frame, Ink, Light, LightSource, Lines, Pose, Rotation, Scanner, SceneLight, Shade, Turn,
+    Background, Camera, Color, Frame, Ink, Light, LightSource, Lines, Pose, Regular, Rotation, Scanner, SceneLight, Shade, Split,
+    Splits, Turn,
 };
 use beamshade_mesh::{Model, Part, Quantized, Surface};
 use embedded_graphics::geometry::Size;
@@ -152,6 +153,16 @@ pub fn frame<T, const LIGHTS: usize, L: FromReference>(
     meshes: &Meshes,
     see: impl FnOnce(beamshade::Picture<'_, LIGHTS, L>) -> T,
 ) -> Result<T> {
+    fill(scene, meshes, None::<&Regular>, |picture, _| see(picture))
+}
+
+/// The same, triangles split that way if any; `see` is told what became of each object's.
+fn fill<T, const LIGHTS: usize, L: FromReference>(
+    scene: &Scene<'_>,
+    meshes: &Meshes,
+    split: Option<&impl Split<LIGHTS, L>>,
+    see: impl FnOnce(beamshade::Picture<'_, LIGHTS, L>, Vec<Splits>) -> T,
+) -> Result<T> {
     let borrowed: Vec<_> = meshes.0.iter().map(Quantized::mesh).collect();
     let mut frame: Box<BigFrame<'_, LIGHTS, L>> = Box::default();
     let lights: Vec<L> = scene.lights.iter().map(|&light| light.try_into()).collect::<Result<_>>()?;
@@ -159,12 +170,16 @@ pub fn frame<T, const LIGHTS: usize, L: FromReference>(
     let [r, g, b] = scene.background.map(|c| c as f32);
     frame.background(Background::Plain(Color::rgb(r, g, b)));
     frame.begin(&camera(&scene.camera), lights)?;
+    let mut splits = Vec::new();
     for (mesh, object) in borrowed.iter().zip(&scene.objects) {
         let pose =
             Pose::turned(rotation(object.pose.rotation)).scaled(object.pose.scale as f32).at(single(object.pose.translation));
-        frame.add(mesh, &pose)?;
+        match split {
+            Some(split) => splits.push(frame.add_split(mesh, &pose, split)?),
+            None => frame.add(mesh, &pose)?,
+        }
     }
-    Ok(see(frame.picture()))
+    Ok(see(frame.picture(), splits))
 }
 
 /// Draws the scene by the library, every line from top to bottom.
@@ -179,6 +194,22 @@ pub fn draw<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromReference>(
     frame(scene, meshes, |picture| {
         let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS, L>> = Box::default();
         read(&mut scanner.start(picture))
+    })
+}
+
+/// The same with triangles split that way, and what became of each object's.
+///
+/// # Errors
+///
+/// As [`frame`].
+pub fn draw_split<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromReference>(
+    scene: &Scene<'_>,
+    meshes: &Meshes,
+    split: &impl Split<LIGHTS, L>,
+) -> Result<(Picture<P>, Vec<Splits>)> {
+    fill(scene, meshes, Some(split), |picture, splits| {
+        let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS, L>> = Box::default();
+        (read(&mut scanner.start(picture)), splits)
     })
 }
 

@@ -10,6 +10,7 @@ macro_rules! every_method {
             "duff-direct" beamshade::DuffDirect,
             "duff-differences" beamshade::DuffDifferences,
             "duff-barycentric" beamshade::DuffBarycentric,
+            "gouraud-phong" beamshade::GouraudPhong,
             "gouraud" beamshade::Gouraud,
             "flat" beamshade::Flat,
         }

@@ -81,6 +81,10 @@ pub trait Aim: Copy + Debug {
     #[must_use]
     fn rays(&self, position: [i16; 3]) -> Rays;
 
+    /// The ways to light and viewer from a place in 2⁻¹⁶ of the mesh's extent, in any one unit each: linear in the place.
+    #[must_use]
+    fn ways(&self, place: [i32; 3]) -> [[i32; 3]; 2];
+
     /// `[intensity · n·l, n·h]` in Q14, for a position, Q15 of the mesh's extent, and a normal, Q14.
     #[must_use]
     fn dots(&self, position: [i16; 3], normal: [i16; 3]) -> [i16; 2];
@@ -181,6 +185,10 @@ impl Aim for Far {
     #[inline(always)]
     fn rays(&self, _: [i16; 3]) -> Rays {
         self.rays
+    }
+
+    fn ways(&self, _: [i32; 3]) -> [[i32; 3]; 2] {
+        [self.rays.light, self.rays.viewer]
     }
 
     #[inline(always)]
@@ -292,6 +300,15 @@ impl Aim for Near {
         let viewer = towards(self.viewer);
         let ([lx, ly, lz], [vx, vy, vz]) = (light, viewer);
         Rays { light, half: unit([lx + vx, ly + vy, lz + vz]), viewer }
+    }
+
+    fn ways(&self, [px, py, pz]: [i32; 3]) -> [[i32; 3]; 2] {
+        let towards = |[x, y, z]: [i32; 3]| [x.saturating_sub(px), y.saturating_sub(py), z.saturating_sub(pz)];
+        let light = match self.light {
+            Spot::Place(place) => towards(place),
+            Spot::Direction(direction) => direction,
+        };
+        [light, towards(self.viewer)]
     }
 
     #[inline]

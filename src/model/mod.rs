@@ -2,6 +2,7 @@
 
 pub mod camera;
 pub mod clip;
+pub mod highlight;
 pub mod light;
 pub mod material;
 pub mod mesh;

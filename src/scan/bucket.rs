@@ -1,6 +1,6 @@
 //! The triangles of a picture by the line on which they start.
 
-/// Number of a triangle in a frame: through the meshes in the order they were added; those made by clipping count down
+/// Number of a triangle in a frame: through the meshes in the order they were added; those made by clipping or splitting count down
 /// from 65534.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TriangleId(pub(crate) u16);

@@ -32,7 +32,7 @@ pub struct Object<'m> {
     pub(crate) first_material: u16,
 }
 
-/// A triangle made by clipping.
+/// A triangle made by clipping or splitting.
 #[derive(Clone, Copy, Debug)]
 pub struct Made {
     /// The triangle that it is a part of.
@@ -40,7 +40,7 @@ pub struct Made {
     /// Numbers of its corners among the frame's vertices.
     pub(crate) corners: [u16; 3],
     pub(crate) edges: [u16; 3],
-    /// Where they are in the whole.
+    /// Where they are in the whole: in space if that was clipped, on the screen if it was split, which no corner of it forbids.
     pub(crate) weights: [Weights; 3],
 }
 

@@ -2,7 +2,7 @@
 
 use embedded_graphics::primitives::Rectangle;
 
-use super::{bucket::TriangleId, geometry::Geometry, triangle::Triangle};
+use super::{bucket::TriangleId, geometry::Geometry, triangle::Triangle, vertex::Vertex};
 use crate::model::{
     light::{Light, LightSource},
     material::Color,
@@ -55,6 +55,11 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, LIGHTS, L> {
         let [a, b, c] = numbers.corners;
         let vertex = |number| self.geometry.vertex(number);
         let aims = self.aims.get(usize::from(numbers.object.place))?;
-        Some(Triangle { corners: [vertex(a)?, vertex(b)?, vertex(c)?], edges: numbers.edges, aims, numbers, turned: false })
+        let nearness = match numbers.part {
+            Some(made) if L::IN_SCENE => self.geometry.corners(made.whole)?.map(Vertex::nearness),
+            _ => [0; 3],
+        };
+        let corners = [vertex(a)?, vertex(b)?, vertex(c)?];
+        Some(Triangle { corners, edges: numbers.edges, aims, numbers, nearness, turned: false })
     }
 }

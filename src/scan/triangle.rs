@@ -4,7 +4,7 @@ use embedded_graphics::geometry::Point;
 
 use super::{geometry::Numbers, vertex::Vertex};
 use crate::{
-    math::{product::scale, reciprocal::Reciprocal, screen::area, vector::unit},
+    math::{product::scale, reciprocal::Reciprocal, screen::area, weights::Weights},
     model::{
         light::{Aim, Light, LightSource},
         mesh::MeshData,
@@ -21,6 +21,8 @@ pub struct Triangle<'f, const LIGHTS: usize, L: LightSource = Light> {
     /// The lights as its object sees them.
     pub aims: &'f [L::Aim; LIGHTS],
     pub(crate) numbers: Numbers<'f>,
+    /// The nearness of the corners of the triangle that it is a part of; 0 if that was clipped, or if nothing depends on positions.
+    pub(crate) nearness: [u32; 3],
     /// Whether its normals are turned, as it is seen from behind.
     pub(crate) turned: bool,
 }
@@ -54,7 +56,7 @@ impl<const LIGHTS: usize, L: LightSource> Triangle<'_, LIGHTS, L> {
         let normals = self.whole(|data| data.normals);
         let normals = match self.numbers.part {
             None => normals,
-            Some(made) => made.weights.map(|weights| unit(weights.mean(normals)).map(|c| ((c + 2) >> 2) as i16)),
+            Some(made) => made.weights.map(|weights| weights.normal(normals)),
         };
         if self.turned {
             normals.map(|normal| normal.map(i16::wrapping_neg))
@@ -69,7 +71,7 @@ impl<const LIGHTS: usize, L: LightSource> Triangle<'_, LIGHTS, L> {
         let positions = self.whole(|data| data.positions);
         match self.numbers.part {
             None => positions,
-            Some(made) => made.weights.map(|weights| weights.mean(positions).map(|c| ((c + (1 << 14)) >> 15) as i16)),
+            Some(made) => made.weights.map(|place| in_space(place, self.nearness).position(positions)),
         }
     }
 
@@ -99,9 +101,10 @@ impl<const LIGHTS: usize, L: LightSource> Triangle<'_, LIGHTS, L> {
     fn samples<const N: usize>(&self, places: [[u16; 3]; N]) -> [[[i16; 2]; LIGHTS]; N] {
         if L::IN_SCENE {
             let (normals, positions) = (self.normals(), self.positions());
+            let nearness = self.corners.map(Vertex::nearness);
             places.map(|place| {
                 let normal = mean(place, normals);
-                let position = mean(self.seen(place), positions);
+                let position = mean(seen(place, nearness), positions);
                 self.aims.each_ref().map(|aim| aim.dots(position, normal))
             })
         } else {
@@ -117,22 +120,31 @@ impl<const LIGHTS: usize, L: LightSource> Triangle<'_, LIGHTS, L> {
             })
         }
     }
+}
 
-    /// The barycentric coordinates in space, Q14, of what is seen at these on the screen.
-    fn seen(&self, place: [u16; 3]) -> [u16; 3] {
-        // Shares are as the screen's times the nearness: 14 bits for the largest.
-        let nearness = self.corners.map(Vertex::nearness);
-        let up = nearness.iter().fold(1, |all, w| all | w).leading_zeros() as i32 - 18;
-        let (mut shares, mut sum) = ([0; 3], 0);
-        for ((share, part), w) in shares.iter_mut().zip(place).zip(nearness) {
-            *share = (u32::from(part) * scale(w as i32, up) as u32) >> 14;
-            sum += *share;
-        }
-        let inverse = Reciprocal::of(sum);
-        let short = inverse.short();
-        // 14 bits and 17; Q14.
-        shares.map(|share| ((share * short) >> (33 - inverse.zeros).clamp(0, 31)) as u16)
+/// The barycentric coordinates in space, Q14, of what is seen at these on the screen, where corners have that nearness.
+fn seen(place: [u16; 3], nearness: [u32; 3]) -> [u16; 3] {
+    // Shares are as the screen's times the nearness: 14 bits for the largest.
+    let up = nearness.iter().fold(1, |all, w| all | w).leading_zeros() as i32 - 18;
+    let (mut shares, mut sum) = ([0; 3], 0);
+    for ((share, part), w) in shares.iter_mut().zip(place).zip(nearness) {
+        *share = (u32::from(part) * scale(w as i32, up) as u32) >> 14;
+        sum += *share;
     }
+    let inverse = Reciprocal::of(sum);
+    let short = inverse.short();
+    // 14 bits and 17; Q14.
+    shares.map(|share| ((share * short) >> (33 - inverse.zeros).clamp(0, 31)) as u16)
+}
+
+/// The place in space that is seen at one on the screen, where corners have that nearness; itself if that is nothing.
+pub(crate) fn in_space(place: Weights, nearness: [u32; 3]) -> Weights {
+    if nearness.contains(&0) {
+        return place;
+    }
+    let [w0, w1, _] = seen(place.shares().map(|share| share >> 1), nearness);
+    let w0 = w0.min(1 << 14);
+    Weights::new([2 * w0, 2 * w1.min((1 << 14) - w0), 0])
 }
 
 /// The mean with these weights, Q14.

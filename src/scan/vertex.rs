@@ -59,4 +59,30 @@ impl<const LIGHTS: usize> Vertex<LIGHTS> {
     pub const fn nearness(&self) -> u32 {
         ((self.x & 0xfff) << 12) | (self.y & 0xfff)
     }
+
+    /// The bit above the nearness.
+    const MARK: u32 = 1 << 11;
+
+    /// Marks it: its nearness is not to be asked for until the mark is [taken away](Self::unmark).
+    pub(crate) const fn mark(&mut self) {
+        self.x |= Self::MARK;
+    }
+
+    /// Whether it is marked.
+    pub(crate) const fn is_marked(&self) -> bool {
+        self.x & Self::MARK != 0
+    }
+
+    /// Takes a mark away.
+    pub(crate) const fn unmark(&mut self) {
+        self.x &= !Self::MARK;
+    }
+
+    /// Makes sure that it can be marked: on the very near plane it needs the bit, and goes back by one unit.
+    pub(crate) const fn unmarked(&mut self) {
+        if self.is_marked() {
+            self.x = (self.x & !Self::MARK) | (Self::MARK - 1);
+            self.y |= 0xfff;
+        }
+    }
 }

@@ -2,9 +2,12 @@
 
 use core::marker::PhantomData;
 
-use super::{Paint, Shade, Surface};
+use super::{duff_barycentric::DuffBarycentric, gouraud::Gouraud, Paint, Shade, Surface};
 use crate::{
-    model::light::{Light, LightSource},
+    model::{
+        highlight::Bent,
+        light::{Light, LightSource},
+    },
     scan::triangle::Triangle,
 };
 
@@ -24,9 +27,28 @@ impl<const LIGHTS: usize, L: LightSource> Rule<LIGHTS, L> for ByMaterial {
     }
 }
 
+/// The rule that leaves it to the place of highlights: the first method for triangles [near](crate::model::highlight::is_near)
+/// the centre of one, the second for all others. [`GouraudPhong`] is made by it.
+///
+/// *Adaptive Shading*, §3.3, with the neighbours of §4: without these, highlights that reach beyond the triangle of their
+/// centre are cut off at its edges, which on the standard scene costs 3.6 of 36.3 dB. Where the methods meet, intensity is
+/// not continuous; a highlight wider than a triangle and its neighbours ends there.
+#[derive(Clone, Copy, Debug)]
+pub struct ByHighlight;
+
+impl<const LIGHTS: usize, L: LightSource> Rule<LIGHTS, L> for ByHighlight {
+    fn second(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> bool {
+        let bent = Bent { positions: if L::IN_SCENE { triangle.positions() } else { [[0; 3]; 3] }, normals: triangle.normals() };
+        surface.material.specular == 0 || !bent.is_near(triangle.aims)
+    }
+}
+
 /// Shades each triangle by `A` or by `B`, as the rule `R` says; may be nested. Only the methods named are linked.
 #[derive(Clone, Copy, Debug)]
 pub struct Choose<A, B, R = ByMaterial>(PhantomData<(A, B, R)>);
+
+/// Gouraud shading, and per-pixel shading near highlights.
+pub type GouraudPhong = Choose<DuffBarycentric, Gouraud, ByHighlight>;
 
 /// One of two.
 #[derive(Clone, Copy, Debug)]

@@ -58,7 +58,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for Gouraud {
 }
 
 /// The illumination at a corner.
-pub(super) fn at_corner<const LIGHTS: usize>(dots: &[[i16; 2]; LIGHTS], surface: &Surface<'_, LIGHTS>) -> Intensity {
+pub(crate) fn at_corner<const LIGHTS: usize>(dots: &[[i16; 2]; LIGHTS], surface: &Surface<'_, LIGHTS>) -> Intensity {
     let mut sum = Intensity::default();
     for ([diffuse, specular], strength) in dots.iter().zip(surface.intensities) {
         sum.diffuse += i32::from(*diffuse).max(0) as u32;

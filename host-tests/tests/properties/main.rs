@@ -9,6 +9,7 @@ mod lines;
 mod phong;
 mod scene;
 mod sinks;
+mod split;
 mod total;
 mod visibility;
 
