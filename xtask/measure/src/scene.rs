@@ -18,10 +18,12 @@ type Method = beamshade::DuffDirect;
 type Method = beamshade::DuffDifferences;
 #[cfg(feature = "duff-barycentric")]
 type Method = beamshade::DuffBarycentric;
-#[cfg(feature = "gouraud")]
-type Method = beamshade::Gouraud;
+#[cfg(feature = "gouraud-phong")]
+type Method = beamshade::GouraudPhong;
 #[cfg(feature = "flat")]
 type Method = beamshade::Flat;
+#[cfg(any(feature = "gouraud", feature = "regular-split", feature = "highlight-split"))]
+type Method = beamshade::Gouraud;
 
 #[cfg(feature = "parts")]
 type Shading = crate::parts::Parts<Method>;
@@ -81,10 +83,32 @@ mod setting {
     }
 }
 
+/// The scene of *Adaptive Shading*, §4: four lights and the viewer in the scene, 256×256 and 512×512 pixels.
+#[cfg(any(feature = "adaptive-256", feature = "adaptive-512"))]
+mod setting {
+    use beamshade::SceneLight;
+
+    pub(super) type Source = SceneLight;
+    pub(super) const LIGHTS: usize = 4;
+    pub(super) const SIZE: usize = if cfg!(feature = "adaptive-256") { 256 } else { 512 };
+    pub(super) const FRAMES: u16 = 60;
+    pub(super) const SEEN: usize = 488;
+    pub(super) const ACTIVE: usize = 65;
+
+    pub(super) fn lights() -> [SceneLight; LIGHTS] {
+        let light = |place| SceneLight::point(place).intensity(0.4);
+        [light([-1.5, 2.1, 1.8]), light([2.1, 1.2, 1.8]), light([0.0, -1.5, 2.4]), light([-2.4, 0.3, 0.9])]
+    }
+}
+
 use setting::{lights, Source, ACTIVE, FRAMES, LIGHTS, SEEN, SIZE};
 
-type TeapotFrame = Frame<'static, 481, SEEN, SIZE, LIGHTS, 1, 0, Source>;
-type TeapotScanner = Scanner<ACTIVE, Shading, LIGHTS, Source>;
+/// Room for the parts of split triangles, and for their vertices.
+const MADE: usize = if cfg!(any(feature = "regular-split", feature = "highlight-split")) { 8192 } else { 0 };
+const CORNERS: usize = 2 * MADE;
+
+type TeapotFrame = Frame<'static, { 481 + CORNERS }, { SEEN + MADE }, SIZE, LIGHTS, 1, MADE, Source>;
+type TeapotScanner = Scanner<{ ACTIVE + MADE / 16 }, Shading, LIGHTS, Source>;
 type Row = [Rgb565; SIZE];
 
 /// A measured scene: all state that rendering it needs, and one row of pixels.
@@ -117,11 +141,31 @@ impl Scene {
         let camera = Camera::new(Size::new(SIZE as u32, SIZE as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
         let turn = Turn::degrees(i32::from(step) * 360 / i32::from(FRAMES));
         let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(turn);
-        self.frame.begin(&camera, &lights()).is_ok() && self.frame.add(&TEAPOT, &Pose::turned(rotation)).is_ok()
+        self.frame.begin(&camera, &lights()).is_ok() && self.add(&Pose::turned(rotation))
+    }
+
+    #[cfg(not(any(feature = "regular-split", feature = "highlight-split")))]
+    fn add(&mut self, pose: &Pose) -> bool {
+        self.frame.add(&TEAPOT, pose).is_ok()
+    }
+
+    /// Triangles are split where a highlight may lie.
+    #[cfg(any(feature = "regular-split", feature = "highlight-split"))]
+    fn add(&mut self, pose: &Pose) -> bool {
+        #[cfg(feature = "regular-split")]
+        let split = beamshade::Regular { pixels: 32 };
+        #[cfg(feature = "highlight-split")]
+        let split = beamshade::AtHighlight::new(0.3);
+        let splits = self.frame.add_split(&TEAPOT, pose, &split);
+        #[cfg(feature = "host")]
+        if let Ok(beamshade::Splits { chosen, split, parts, no_room }) = splits {
+            std::println!("split {chosen} {split} {parts} {no_room}");
+        }
+        splits.is_ok_and(|splits| splits.no_room == 0)
     }
 
     /// The lines of the frame that was prepared, and a row for them.
-    pub fn lines(&mut self) -> (Lines<'_, ACTIVE, Shading, LIGHTS, Source>, &mut Row) {
+    pub fn lines(&mut self) -> (Lines<'_, { ACTIVE + MADE / 16 }, Shading, LIGHTS, Source>, &mut Row) {
         (self.scanner.start(self.frame.picture()), &mut self.row)
     }
 }
