@@ -12,7 +12,7 @@
 //!    makes the line's span table.
 //! 5. [`shade`]: one file for each method, behind one trait. The default, [`shade::duff_barycentric`], is exact Phong shading for
 //!    a few additions, products and look-ups a pixel.
-//! 6. [`sink`]: pixel encodings, the overlay, and whole frames to any embedded-graphics display.
+//! 6. [`sink`]: pixel encodings, palettes, the overlay, and whole frames to any embedded-graphics display.
 //! 7. [`split`]: other ways into a frame, by which triangles with a highlight on them are split for Gouraud shading.
 //!
 //! The application owns every buffer and pulls lines; nothing here waits, calls back, allocates, panics, or knows a peripheral.
@@ -97,9 +97,14 @@ pub use shade::{
     duff_direct::DuffDirect,
     flat::Flat,
     gouraud::Gouraud,
+    linear_angle::LinearAngle,
     phong::Phong,
     phong_planes::PhongPlanes,
     Intensity, Paint, Shade,
 };
-pub use sink::{ink::Ink, overlay::Overlay};
+pub use sink::{
+    ink::Ink,
+    overlay::Overlay,
+    palette::{Indexed, Palette},
+};
 pub use split::{highlight::AtHighlight, regular::Regular, Split, Splits};

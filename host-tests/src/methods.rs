@@ -11,6 +11,8 @@ macro_rules! every_method {
             "duff-differences" beamshade::DuffDifferences,
             "duff-barycentric" beamshade::DuffBarycentric,
             "gouraud-phong" beamshade::GouraudPhong,
+            "linear-angle" beamshade::LinearAngle,
+            "linear-angle-byte" beamshade::LinearAngle<beamshade::shade::linear_angle::Byte>,
             "gouraud" beamshade::Gouraud,
             "flat" beamshade::Flat,
         }

@@ -12,6 +12,7 @@ use beamshade::math::{
     screen::{area, first_at},
     vector::Vector,
 };
+use beamshade::shade::linear_angle::{Angle, Byte, Fine};
 use embedded_graphics::geometry::Point;
 use std::ops::RangeInclusive;
 
@@ -370,6 +371,27 @@ fn power() {
     documented("largest", worst, 1.36e-2);
     documented("RMS", worst_rms, 2.0e-3);
     assert_eq!(Power::new(0), Power::new(1));
+}
+
+#[test]
+fn cosines_of_linear_angles() {
+    fn errors<A: Angle>() -> (f64, f64) {
+        // Half degrees, from 0 to a little less than 126°.
+        let error = |x: f64| {
+            let word = ((2.0 * x + 2.5) * f64::from(1 << 24)) as i64 as i32;
+            f64::from(A::cosine(word)) / 32768.0 - x.to_radians().cos().max(0.0)
+        };
+        assert!(
+            (90_100..126_700).all(|milli| A::cosine(((f64::from(milli) / 500.0 + 2.5) * f64::from(1 << 24)) as i64 as i32) < 150)
+        );
+        assert_eq!([0, 1 << 24, 5 << 23].map(A::cosine), [A::cosine(5 << 23); 3]);
+        statistics((0..90_000).map(|milli| error(f64::from(milli) / 1000.0)))
+    }
+    let [fine, byte] = [errors::<Fine>(), errors::<Byte>()];
+    documented("largest, fine", fine.0, 1.2e-3);
+    documented("RMS, fine", fine.1, 4.5e-4);
+    documented("largest, byte", byte.0, 4.4e-3);
+    documented("RMS, byte", byte.1, 1.8e-3);
 }
 
 #[test]

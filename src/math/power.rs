@@ -55,7 +55,7 @@ impl Power {
     }
 
     /// `cosⁿ` in Q30 by repeated squaring; `cos` is Q31, at most one.
-    const fn exact(cos: u32, exponent: u16) -> u32 {
+    pub(crate) const fn exact(cos: u32, exponent: u16) -> u32 {
         let mut base = cos as u64;
         let mut value = Self::ONE as u64;
         let mut left = exponent;

@@ -2,7 +2,7 @@
 
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 
-use crate::math::power::Power;
+use crate::math::{angle::Turn, power::Power};
 
 /// A colour as three linear factors in Q15: 0 is none, 32768 is all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +18,13 @@ impl Color {
     #[must_use]
     pub const fn rgb(red: f32, green: f32, blue: f32) -> Self {
         Self([factor(red), factor(green), factor(blue)])
+    }
+
+    /// How bright it is, (77 R + 150 G + 29 B) / 256, Q15.
+    #[must_use]
+    pub const fn luma(self) -> u16 {
+        let [r, g, b] = self.0;
+        ((77 * r as u32 + 150 * g as u32 + 29 * b as u32 + 128) >> 8) as u16
     }
 }
 
@@ -43,6 +50,16 @@ const fn shade(base: u16, light: u64, largest: u64) -> u32 {
     ((base as u64 * light * largest + (1 << 37)) >> 38) as u32
 }
 
+/// Light on two colours, Q45, saturated; Q15.
+const fn channel(dull: u64, base: u16, gloss: u64, highlight: u16) -> u16 {
+    let sum = (((dull >> 15) * base as u64 + (gloss >> 15) * highlight as u64) + (1 << 29)) >> 30;
+    if sum > 1 << 15 {
+        1 << 15
+    } else {
+        sum as u16
+    }
+}
+
 /// At most one, Q23.
 const fn saturated(light: u64) -> u64 {
     if light > 1 << 23 {
@@ -61,7 +78,7 @@ const fn spread(Color([red, green, blue]): Color, light: u64) -> u32 {
 /// A surface under Phong's illumination model (*Faster Phong Shading*, Eq. 1):
 /// `ambient·base + diffuse·base·(n·l) + specular·highlight·(n·h)ⁿ`, both products clamped at 0, the sum saturating.
 ///
-/// Built in a `const` or `static`, so that it lives in flash together with its tables, about 3.6 kB.
+/// Built in a `const` or `static`, so that it lives in flash together with its tables, about 3.9 kB.
 ///
 /// ```
 /// use beamshade::{Color, Material};
@@ -85,6 +102,12 @@ pub struct Material {
     pub(crate) dull: [u32; Self::STEPS],
     /// The highlight in 256 equal steps of the specular intensity up to two, likewise.
     pub(crate) gloss: [u32; Self::STEPS],
+    /// Its first and last number in a palette.
+    pub(crate) colors: [u8; 2],
+    /// The share of diffuse light in what a light of one gives at most, by luma, Q15; specular light has the rest.
+    pub(crate) share: u16,
+    /// For 256 equal steps of that light the place, 0 to 255, on the ramp of [`at_angle`](Self::at_angle) that is as bright.
+    pub(crate) places: [u8; Self::STEPS],
 }
 
 impl Material {
@@ -103,6 +126,9 @@ impl Material {
             ramp: [0; Self::STEPS],
             dull: [0; Self::STEPS],
             gloss: [0; Self::STEPS],
+            colors: Self::ALL_COLORS,
+            share: 0,
+            places: [0; Self::STEPS],
         }
         .ramped()
     }
@@ -130,6 +156,76 @@ impl Material {
             }
             step += 1;
         }
+        self.placed()
+    }
+
+    /// All of a palette but colour 0, which is the background's.
+    const ALL_COLORS: [u8; 2] = [1, u8::MAX];
+
+    /// The same with its places on the ramp made anew.
+    const fn placed(mut self) -> Self {
+        let diffuse = self.diffuse as u32 * self.base.luma() as u32;
+        let specular = self.specular as u32 * self.highlight.luma() as u32;
+        // Of a surface that reflects nothing all places are alike.
+        self.share = if diffuse == 0 { 0 } else { (((diffuse as u64) << 15) / (diffuse as u64 + specular as u64)) as u16 };
+        let (mut step, mut place) = (0, 0);
+        let (mut here, mut next) = (self.light(0), self.light(1));
+        while step < Self::STEPS {
+            // In the middle of a step; the nearer of two places.
+            while place < u8::MAX && here + next < (2 * step as u64 + 1) << 22 {
+                place += 1;
+                here = next;
+                next = self.light(place.saturating_add(1));
+            }
+            #[expect(clippy::indexing_slicing, reason = "step < STEPS; slice::get is not const")]
+            {
+                self.places[step] = place;
+            }
+            step += 1;
+        }
+        self
+    }
+
+    /// The light at a place of the ramp, as a part of the most; Q30.
+    const fn light(&self, place: u8) -> u64 {
+        let [diffuse, specular] = self.reflected(Self::ramp_angle(place as u32, u8::MAX as u32));
+        (diffuse * self.share as u64 + specular * ((1 << 15) - self.share as u64)) >> 15
+    }
+
+    /// Of so many steps on a ramp from a right angle to 0 this one's angle.
+    pub(crate) const fn ramp_angle(step: u32, steps: u32) -> Turn {
+        match ((steps.saturating_sub(step) as u64) << 30).checked_div(steps as u64) {
+            Some(angle) => Turn(angle as u32),
+            None => Turn(0),
+        }
+    }
+
+    /// cos x and cosⁿ x for an angle x up to a right angle, Q30.
+    const fn reflected(&self, angle: Turn) -> [u64; 2] {
+        let (_, cos) = angle.sin_cos();
+        let cos = if cos < 0 { 0 } else { cos as u32 };
+        [cos as u64, Power::exact(2 * cos, self.power.exponent()) as u64]
+    }
+
+    /// The colour where one angle x is that to the light and to the half vector, up to a right angle:
+    /// `ambient·base + diffuse·base·cos x + specular·highlight·cosⁿ x`, saturated.
+    ///
+    /// *OTMPHONG.DOC*, "The Phong illumination model"; the ambient term there is called specular, too, by mistake.
+    #[must_use]
+    pub const fn at_angle(&self, angle: Turn) -> Color {
+        let [diffuse, specular] = self.reflected(angle);
+        // Q15 · Q30.
+        let dull = ((self.ambient as u64) << 30) + self.diffuse as u64 * diffuse;
+        let gloss = self.specular as u64 * specular;
+        let ([br, bg, bb], [hr, hg, hb]) = (self.base.0, self.highlight.0);
+        Color([channel(dull, br, gloss, hr), channel(dull, bg, gloss, hg), channel(dull, bb, gloss, hb)])
+    }
+
+    /// The same with colours of its own in a [`Palette`](crate::Palette), from the first number to the last. Without, it takes all
+    /// but colour 0, which is the background's.
+    #[must_use]
+    pub const fn colors(mut self, first: u8, last: u8) -> Self {
+        self.colors = [first, last];
         self
     }
 
@@ -158,7 +254,7 @@ impl Material {
     #[must_use]
     pub const fn exponent(mut self, exponent: u16) -> Self {
         self.power = Power::new(exponent);
-        self
+        self.placed()
     }
 
     /// The same with another colour of the highlight.
@@ -203,6 +299,9 @@ impl Material {
             ramp: [0; Self::STEPS],
             dull: [0; Self::STEPS],
             gloss: [0; Self::STEPS],
+            colors: Self::ALL_COLORS,
+            share: 0,
+            places: [0; Self::STEPS],
         }
         .ramped()
     }

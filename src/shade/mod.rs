@@ -14,6 +14,7 @@ pub mod duff_differences;
 pub mod duff_direct;
 pub mod flat;
 pub mod gouraud;
+pub mod linear_angle;
 pub mod phong;
 pub mod phong_planes;
 

@@ -197,19 +197,14 @@ impl Paint<[u8; 2]> for &Material {
     }
 }
 
-/// A material in grey: the luma of its colours, (77 R + 150 G + 29 B) / 256.
+/// A material in grey: the [luma](Color::luma) of its colours.
 #[derive(Clone, Copy, Debug)]
 pub struct Gray<const BITS: u32>(Channel<BITS>);
 
 impl<const BITS: u32> Gray<BITS> {
     fn new(material: &Material) -> Self {
-        Self(Channel::new(material, luma(material.base), luma(material.highlight)))
+        Self(Channel::new(material, material.base.luma(), material.highlight.luma()))
     }
-}
-
-fn luma(color: Color) -> u16 {
-    let [r, g, b] = color.0.map(u32::from);
-    ((77 * r + 150 * g + 29 * b + 128) >> 8) as u16
 }
 
 impl Ink for Gray8 {
@@ -220,7 +215,7 @@ impl Ink for Gray8 {
     }
 
     fn plain(color: Color) -> Self {
-        Self::new(Channel::<8>::level(luma(color)))
+        Self::new(Channel::<8>::level(color.luma()))
     }
 }
 
@@ -239,7 +234,7 @@ impl Ink for Gray4 {
     }
 
     fn plain(color: Color) -> Self {
-        Self::new(Channel::<4>::level(luma(color)))
+        Self::new(Channel::<4>::level(color.luma()))
     }
 }
 

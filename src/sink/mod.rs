@@ -1,5 +1,6 @@
-//! Where pixels go: encodings, overlays, displays.
+//! Where pixels go: encodings, palettes, overlays, displays.
 
 pub mod draw;
 pub mod ink;
 pub mod overlay;
+pub mod palette;

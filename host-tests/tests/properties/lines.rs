@@ -4,8 +4,8 @@ use std::cell::Cell;
 use std::ops::Range;
 
 use beamshade::{
-    Background, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Ink, Intensity, Line, Lines, Material, Paint, Scanner,
-    Shade,
+    Background, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Ink, Intensity, Line, LinearAngle, Lines, Material, Paint,
+    Scanner, Shade,
 };
 use embedded_graphics::pixelcolor::Rgb565;
 use host_tests::library;
@@ -140,6 +140,7 @@ proptest! {
     fn any_order_of_lines_gives_the_same_pixels(scene in scenes::<1>(), order in vec(any::<Index>(), 1..30)) {
         same_in_any_order::<DuffBarycentric, 256>(&scene, &order);
         same_in_any_order::<Choose<Gouraud, Flat>, 256>(&scene, &order);
+        same_in_any_order::<LinearAngle, 256>(&scene, &order);
         same_in_any_order::<DuffBarycentric, 5>(&scene, &order);
     }
 

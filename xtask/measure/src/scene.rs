@@ -20,6 +20,10 @@ type Method = beamshade::DuffDifferences;
 type Method = beamshade::DuffBarycentric;
 #[cfg(feature = "gouraud-phong")]
 type Method = beamshade::GouraudPhong;
+#[cfg(feature = "linear-angle")]
+type Method = beamshade::LinearAngle;
+#[cfg(feature = "linear-angle-byte")]
+type Method = beamshade::LinearAngle<beamshade::shade::linear_angle::Byte>;
 #[cfg(feature = "flat")]
 type Method = beamshade::Flat;
 #[cfg(any(feature = "gouraud", feature = "regular-split", feature = "highlight-split"))]
