@@ -113,8 +113,8 @@ impl Rays {
             let [nx, ny, nz] = normal.map(i32::from);
             x.wrapping_mul(nx).wrapping_add(y.wrapping_mul(ny)).wrapping_add(z.wrapping_mul(nz))
         };
-        let round = |product: i32| product.wrapping_add(1 << 15) >> 16;
-        [((round(dot(self.light)) * i32::from(intensity)) >> 15) as i16, round(dot(self.half)) as i16]
+        let round = |product: i32| (product.wrapping_add(1 << 15) >> 16) as i16;
+        [round((dot(self.light) >> 15).wrapping_mul(intensity.into())), round(dot(self.half))]
     }
 }
 

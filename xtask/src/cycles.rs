@@ -1,11 +1,11 @@
 //! What rendering costs: instructions, cycles, RAM, stack and code, on each target, and that all render the same.
 
-use crate::costs;
 use crate::count::{self, Count, Counts};
 use crate::elf::Elf;
 use crate::firmware::{self, Target, MEASURE, METHOD, SCENE, TARGETS};
 use crate::install::{self, Need};
 use crate::project::{self, progress};
+use crate::{adaptive, costs};
 use crate::{process, table};
 use anyhow::{ensure, Context, Result};
 use serde_json::json;
@@ -25,6 +25,9 @@ pub(crate) struct Arguments {
     /// What each shading method costs for a facet, a line and a pixel, with the tables of break-even sizes; takes long.
     #[arg(long, conflicts_with_all = ["json", "scene", "target", "functions"])]
     all: bool,
+    /// What adaptive shading costs under four point lights, with its counts of triangles; takes long.
+    #[arg(long, conflicts_with_all = ["all", "json", "scene", "target", "functions"])]
+    adaptive: bool,
     /// The scene.
     #[arg(long, default_value = SCENE)]
     scene: String,
@@ -56,7 +59,7 @@ impl Report {
         let mut report = Report::default();
         for line in text.lines() {
             match line.split(' ').collect::<Vec<_>>()[..] {
-                ["frame", _, _] | ["run", _] => {}
+                ["frame", _, _] | ["run", _] | ["split", ..] => {}
                 ["checksum", sum] => report.checksum = sum.to_owned(),
                 ["mesh", bytes] => report.mesh_bytes = bytes.parse()?,
                 ["ram", name, bytes] => report.ram.push((name.to_owned(), bytes.parse()?)),
@@ -111,6 +114,10 @@ impl Measured {
 /// `cargo xtask cycles`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     install::ensure(&[Need::FirmwareCompiler, Need::Qemu])?;
+    if arguments.adaptive {
+        println!("{}", adaptive::text()?);
+        return Ok(());
+    }
     if arguments.all {
         return costs::run(&arguments.methods);
     }
@@ -145,6 +152,7 @@ pub(crate) fn check() -> Result<()> {
         scene: SCENE.into(),
         method: METHOD.into(),
         all: false,
+        adaptive: false,
         methods: Vec::new(),
         target: None,
         functions: 0,

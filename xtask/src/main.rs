@@ -4,6 +4,7 @@
 //! can do it; elsewhere the command says what to run.
 
 mod accuracy;
+mod adaptive;
 mod costs;
 mod count;
 mod cycles;

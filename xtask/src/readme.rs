@@ -1,7 +1,7 @@
 //! The tables in README and docs.
 
 use crate::project::{self, progress};
-use crate::{accuracy, costs, cycles, gallery};
+use crate::{accuracy, adaptive, costs, cycles, gallery};
 use anyhow::{Context, Result};
 
 /// Write the README's tables anew, from what is measured now.
@@ -17,7 +17,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     write("README.md", &[("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?)])?;
     if arguments.all {
         gallery::run()?;
-        write("docs/shading.md", &[("accuracy", accuracy::every_case()?), ("costs", costs::text(&[])?)])?;
+        write(
+            "docs/shading.md",
+            &[("accuracy", accuracy::every_case()?), ("costs", costs::text(&[])?), ("adaptive", adaptive::text()?)],
+        )?;
     }
     Ok(())
 }
