@@ -5,7 +5,7 @@ use beamshade_mesh::{Model, Options};
 use embedded_graphics::{pixelcolor::Rgb565, prelude::*};
 use embedded_graphics_simulator::{OutputSettings, SimulatorDisplay};
 
-/// How triangles are shaded; `beamshade::Gouraud` and `beamshade::Flat` are the other methods.
+/// How triangles are shaded: any other method, such as `beamshade::Gouraud`, goes here; docs/shading.md compares them.
 type Method = DuffBarycentric;
 
 /// The width and the height of one picture.
