@@ -91,6 +91,8 @@ pub use scan::{
 };
 pub use scanner::{Line, Lines, Scanner};
 pub use shade::{
+    angular_trapezia::AngularTrapezia,
+    angular_triangle::AngularTriangle,
     choose::{ByHighlight, ByMaterial, Choose, GouraudPhong},
     duff_barycentric::DuffBarycentric,
     duff_differences::DuffDifferences,

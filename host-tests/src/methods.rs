@@ -10,6 +10,8 @@ macro_rules! every_method {
             "duff-direct" beamshade::DuffDirect,
             "duff-differences" beamshade::DuffDifferences,
             "duff-barycentric" beamshade::DuffBarycentric,
+            "angular-trapezia" beamshade::AngularTrapezia,
+            "angular-triangle" beamshade::AngularTriangle,
             "gouraud-phong" beamshade::GouraudPhong,
             "linear-angle" beamshade::LinearAngle,
             "linear-angle-byte" beamshade::LinearAngle<beamshade::shade::linear_angle::Byte>,

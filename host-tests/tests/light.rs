@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use beamshade::{
-    math::vector::unit,
+    math::vector::{turned, unit},
     model::light::{Aim, LightSource, Rays},
     Camera, Light, Material, Mesh, MeshData, Pose, Rotation, SceneLight, Turn,
 };
 use embedded_graphics::geometry::Size;
 use fixed::types::I16F16;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 static MATERIALS: [Material; 1] = [Material::new(beamshade::Color::WHITE)];
 
@@ -56,6 +56,30 @@ fn unit_vectors_are_as_exact_as_their_docs_say() {
     }
     assert!(largest <= 5e-5 && largest > 4e-5, "{largest:.3e}");
     assert_eq!([unit([0; 3]), unit([0, -1, 0]), unit([0, 0, i32::MIN])], [[0; 3], [0, -65536, 0], [0, 0, -65536]]);
+}
+
+#[test]
+fn turned_vectors_are_as_exact_as_their_docs_say() {
+    let mut rng = fastrand::Rng::with_seed(3);
+    let (mut largest, mut squares, mut count): (f64, f64, f64) = (0.0, 0.0, 0.0);
+    let q16 = |v: DVec3| v.to_array().map(|c| (c * 65536.0).round() as i32);
+    let q14 = |v: DVec3| v.to_array().map(|c| (c * 16384.0).round() as i16);
+    for _ in 0..200_000 {
+        let [v, from, to] = [0; 3].map(|_| random_unit(&mut rng));
+        if from.dot(to) < -0.87 {
+            continue;
+        }
+        let exact = DQuat::from_rotation_arc(from, to) * v;
+        let found = DVec3::from_array(turned(q14(v), q16(from), q16(to)).map(|c| f64::from(c) / 16384.0));
+        largest = largest.max((found - exact).abs().max_element());
+        squares += (found - exact).length_squared();
+        count += 3.0;
+    }
+    let rms = (squares / count).sqrt();
+    assert!(largest <= 4.2e-4 && largest > 4e-4 && rms <= 3.9e-5, "{largest:.3e} {rms:.3e}");
+    // Nearly opposite vectors, and none at all.
+    let v = [9000, -9000, 10000];
+    assert_eq!([turned(v, [65536, 0, 0], [-65536, 0, 0]), turned(v, [0; 3], [0; 3])], [v; 2]);
 }
 
 /// l, h, v and both products against their definitions, for lights at a place and in a direction.

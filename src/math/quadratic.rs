@@ -109,6 +109,19 @@ impl Differences {
         ends.wrapping_sub(bow & (bow >> 31))
     }
 
+    /// So many pixels further to the right: what as many steps would give, modulo 2³².
+    #[inline(always)]
+    #[must_use]
+    pub const fn after(self, count: i32) -> Self {
+        // One of two successive numbers is even.
+        let pairs = if count & 1 == 0 { (count >> 1).wrapping_mul(count - 1) } else { count.wrapping_mul((count - 1) >> 1) };
+        Self {
+            value: self.value.wrapping_add(self.step.wrapping_mul(count)).wrapping_add(self.second.wrapping_mul(pairs)),
+            step: self.step.wrapping_add(self.second.wrapping_mul(count)),
+            second: self.second,
+        }
+    }
+
     /// The value at this pixel, and on to the next one.
     #[inline(always)]
     pub const fn next(&mut self) -> i32 {

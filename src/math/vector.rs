@@ -1,6 +1,10 @@
 //! Directions.
 
-use super::{product::scale, root::inverse_root};
+use super::{
+    product::{mul_high, scale},
+    reciprocal::Reciprocal,
+    root::inverse_root,
+};
 
 /// A vector with Q30 components (one is 2³⁰), each from −2 to 2.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,6 +59,53 @@ pub fn unit(components: [i32; 3]) -> [i32; 3] {
     let e = ((1 << 32) - ((i64::from(square) * i64::from(root * root)) >> 30)) >> 12;
     let root = (8 * root as i32 + ((root as i32 * e as i32) >> 18) + 8) >> 4;
     components.map(|c| (c * root + (1 << (13 - short))) >> (14 - short))
+}
+
+/// A unit vector, turned by the least rotation that takes the unit vector `from` to the unit vector `to`.
+///
+/// The vector is Q14, the two are Q16. Where they are more than 151° apart the vector stays where it is. Error of each component at
+/// most 4.2·10⁻⁴, RMS below 3.9·10⁻⁵.
+#[must_use]
+pub fn turned(vector: [i16; 3], from: [i32; 3], to: [i32; 3]) -> [i16; 3] {
+    // Q15, and their sum.
+    let half = |v: [i32; 3]| v.map(|c| (c + 1) >> 1);
+    let (from, to) = (half(from), half(to));
+    let ([fx, fy, fz], [tx, ty, tz]) = (from, to);
+    let sum = [fx + tx, fy + ty, fz + tz];
+    // 1 + cos of the angle between the two, Q29.
+    let apart = (1 << 29) + (dot(from, to) >> 1);
+    if apart < 1 << 26 {
+        return vector;
+    }
+    let inverse = Reciprocal::of(apart as u32);
+    let wide = vector.map(i32::from);
+    // Two reflections: v + 2 (from · v) to − sum (sum · v)/(1 + from · to); Q15 each.
+    let along = dot(from, wide) >> 13;
+    let back = scale(mul_high(dot(sum, wide), inverse.short()), inverse.zeros - 16);
+    let mut turned = vector;
+    for ((turned, sum), to) in turned.iter_mut().zip(sum).zip(to) {
+        let way = along.wrapping_mul(to).wrapping_sub(back.wrapping_mul(sum));
+        *turned = turned.wrapping_add((way.wrapping_add(1 << 15) >> 16) as i16);
+    }
+    turned
+}
+
+/// The scalar product, wrapping.
+#[inline(always)]
+#[must_use]
+pub const fn dot([ax, ay, az]: [i32; 3], [bx, by, bz]: [i32; 3]) -> i32 {
+    ax.wrapping_mul(bx).wrapping_add(ay.wrapping_mul(by)).wrapping_add(az.wrapping_mul(bz))
+}
+
+/// The vector product, wrapping.
+#[inline(always)]
+#[must_use]
+pub const fn cross([ax, ay, az]: [i32; 3], [bx, by, bz]: [i32; 3]) -> [i32; 3] {
+    [
+        ay.wrapping_mul(bz).wrapping_sub(az.wrapping_mul(by)),
+        az.wrapping_mul(bx).wrapping_sub(ax.wrapping_mul(bz)),
+        ax.wrapping_mul(by).wrapping_sub(ay.wrapping_mul(bx)),
+    ]
 }
 
 impl core::ops::Add for Vector {

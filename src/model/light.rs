@@ -1,6 +1,6 @@
 //! Lights.
 
-use core::fmt::Debug;
+use core::{array::from_fn, fmt::Debug};
 
 use super::{camera::Camera, mesh::Mesh, pose::Pose};
 use crate::math::{
@@ -21,6 +21,8 @@ pub trait LightSource: Copy + Debug {
     type Product: Interpolant;
     /// What a shading method keeps only where directions change from place to place.
     type Change<T: Copy + Debug>: Change<T>;
+    /// What a facet holds once for each product of each light with a normal; or once for all, where all see the same normals.
+    type PerProduct<T: Blank, const LIGHTS: usize>: PerProduct<T>;
     /// Whether its direction or the viewer's changes from place to place.
     const IN_SCENE: bool;
     /// A light that is off.
@@ -75,6 +77,38 @@ impl<T: Copy + Debug> Change<T> for Option<T> {
     }
 }
 
+/// A value to fill memory with.
+pub trait Blank: Copy + Debug {
+    /// That value.
+    const BLANK: Self;
+}
+
+/// Values for the products n·l (0) and n·h (1) of each light; several products may have one in common.
+pub trait PerProduct<T>: Blank {
+    /// Makes each value, given a light and a product that it is for.
+    fn each(value: impl FnMut(usize, usize) -> T) -> Self;
+
+    /// The value for a product of a light; none if there is no such light.
+    fn of(&self, light: usize, product: usize) -> Option<&T>;
+}
+
+impl<T: Blank, const PRODUCTS: usize, const LIGHTS: usize> Blank for [[T; PRODUCTS]; LIGHTS] {
+    const BLANK: Self = [[T::BLANK; PRODUCTS]; LIGHTS];
+}
+
+/// In common are those beyond the last row or column.
+impl<T: Blank, const PRODUCTS: usize, const LIGHTS: usize> PerProduct<T> for [[T; PRODUCTS]; LIGHTS] {
+    #[inline(always)]
+    fn each(mut value: impl FnMut(usize, usize) -> T) -> Self {
+        from_fn(|light| from_fn(|product| value(light, product)))
+    }
+
+    #[inline(always)]
+    fn of(&self, light: usize, product: usize) -> Option<&T> {
+        self.get(light.min(LIGHTS.saturating_sub(1)))?.get(product.min(PRODUCTS.saturating_sub(1)))
+    }
+}
+
 /// A light source in the space of an object.
 pub trait Aim: Copy + Debug {
     /// Directions seen from a position in the mesh, Q15 of its extent.
@@ -103,7 +137,7 @@ pub struct Rays {
 
 impl Rays {
     /// No light.
-    const NONE: Self = Self { light: [0; 3], half: [0; 3], viewer: [0; 3] };
+    pub(crate) const NONE: Self = Self { light: [0; 3], half: [0; 3], viewer: [0; 3] };
 
     /// `[intensity · n·l, n·h]` in Q14, intensity in Q15.
     #[inline(always)]
@@ -153,6 +187,7 @@ impl LightSource for Light {
     type Aim = Far;
     type Product = Plane;
     type Change<T: Copy + Debug> = ();
+    type PerProduct<T: Blank, const LIGHTS: usize> = [[T; 1]; 1];
     const IN_SCENE: bool = false;
     const OFF: Self = Self::OFF;
 
@@ -247,6 +282,7 @@ impl LightSource for SceneLight {
     type Aim = Near;
     type Product = Quadratic;
     type Change<T: Copy + Debug> = Option<T>;
+    type PerProduct<T: Blank, const LIGHTS: usize> = [[T; 2]; LIGHTS];
     const IN_SCENE: bool = true;
     const OFF: Self = Self::OFF;
 

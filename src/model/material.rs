@@ -2,7 +2,7 @@
 
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 
-use crate::math::{angle::Turn, power::Power};
+use crate::math::{angle::Turn, piecewise::PiecewisePower, power::Power};
 
 /// A colour as three linear factors in Q15: 0 is none, 32768 is all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +75,11 @@ const fn spread(Color([red, green, blue]): Color, light: u64) -> u32 {
     shade(red, light, 31 << 4) << r | shade(green, light, 63 << 4) << g | shade(blue, light, 31 << 4) << b
 }
 
+/// Both kinds of parabolas for one exponent.
+const fn parabolas(exponent: u16) -> [PiecewisePower; 2] {
+    [PiecewisePower::refit(exponent), PiecewisePower::printed(exponent)]
+}
+
 /// A surface under Phong's illumination model (*Faster Phong Shading*, Eq. 1):
 /// `ambient·base + diffuse·base·(n·l) + specular·highlight·(n·h)ⁿ`, both products clamped at 0, the sum saturating.
 ///
@@ -96,6 +101,8 @@ pub struct Material {
     pub(crate) double_sided: bool,
     pub(crate) plain: bool,
     pub(crate) power: Power,
+    /// The same power as parabolas, refit and as printed.
+    pub(crate) parabolas: [PiecewisePower; 2],
     /// Rgb565 of the ambient and diffuse light alone, in the middle of 256 equal steps of the diffuse intensity up to two.
     pub(crate) ramp: [u16; Self::STEPS],
     /// The same with four bits more for each channel and half a level for rounding, see [`Material::SPREAD`].
@@ -123,6 +130,7 @@ impl Material {
             double_sided: false,
             plain: false,
             power: Power::new(32),
+            parabolas: parabolas(32),
             ramp: [0; Self::STEPS],
             dull: [0; Self::STEPS],
             gloss: [0; Self::STEPS],
@@ -254,6 +262,7 @@ impl Material {
     #[must_use]
     pub const fn exponent(mut self, exponent: u16) -> Self {
         self.power = Power::new(exponent);
+        self.parabolas = parabolas(exponent);
         self.placed()
     }
 
@@ -296,6 +305,7 @@ impl Material {
             double_sided: flags & 1 == 1,
             plain: flags & 2 == 2,
             power: Power::new(exponent),
+            parabolas: parabolas(exponent),
             ramp: [0; Self::STEPS],
             dull: [0; Self::STEPS],
             gloss: [0; Self::STEPS],

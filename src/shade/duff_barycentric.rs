@@ -160,7 +160,7 @@ fn shows<const LIGHTS: usize>(cosines: &[[Differences; 2]; LIGHTS], pixels: usiz
 /// Whether the power can show anywhere on the triangle, given its largest edge constant and what its product with h may reach.
 ///
 /// |N| is nowhere less than by u = 2/3 of the largest edge constant, as Σ λi λj ≤ 1/3.
-fn is_shiny(most: i32, edge: u32, power: &Power) -> bool {
+pub(super) fn is_shiny(most: i32, edge: u32, power: &Power) -> bool {
     // Where 1/|N| may pass 2, every facet that faces a highlight at all counts.
     if most <= 0 || edge > 1 << 15 {
         return most > 0;

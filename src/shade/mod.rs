@@ -8,6 +8,9 @@ use crate::{
     scan::triangle::Triangle,
 };
 
+pub mod angular;
+pub mod angular_trapezia;
+pub mod angular_triangle;
 pub mod choose;
 pub mod duff_barycentric;
 pub mod duff_differences;
@@ -17,6 +20,7 @@ pub mod gouraud;
 pub mod linear_angle;
 pub mod phong;
 pub mod phong_planes;
+pub mod trapezium;
 
 /// Light that a surface sends to the eye, before its colours: ambient apart, diffuse and specular each summed over the lights
 /// that reach it; Q14, and clamped just below 2 where several lights together are brighter.

@@ -4,8 +4,8 @@ use std::cell::Cell;
 use std::ops::Range;
 
 use beamshade::{
-    Background, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Ink, Intensity, Line, LinearAngle, Lines, Material, Paint,
-    Scanner, Shade,
+    AngularTriangle, Background, Choose, Color, DuffBarycentric, Flat, Frame, Gouraud, Ink, Intensity, Line, LinearAngle, Lines,
+    Material, Paint, Scanner, Shade,
 };
 use embedded_graphics::pixelcolor::Rgb565;
 use host_tests::library;
@@ -141,6 +141,7 @@ proptest! {
         same_in_any_order::<DuffBarycentric, 256>(&scene, &order);
         same_in_any_order::<Choose<Gouraud, Flat>, 256>(&scene, &order);
         same_in_any_order::<LinearAngle, 256>(&scene, &order);
+        same_in_any_order::<AngularTriangle, 256>(&scene, &order);
         same_in_any_order::<DuffBarycentric, 5>(&scene, &order);
     }
 
