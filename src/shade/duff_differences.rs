@@ -31,7 +31,7 @@ use crate::{
 /// bend little, 0 at the corners, and 32 bits suffice. Between lines the terms are evaluated: that is modulo 2³² what differences
 /// between lines would give.
 ///
-/// Exact but for rounding, on every facet alike. With normals at most 60° apart, diffuse intensity is off by at most 6·10⁻⁴ on
+/// Exact but for rounding, on every facet alike. With normals at most 60° apart, diffuse intensity is off by at most 7·10⁻⁴ on
 /// triangles no less than 12 pixels high (RMS 1.8·10⁻⁴), and 1.8·10⁻³ from 2 pixels on (RMS 2·10⁻⁴). A triangle too thin for a
 /// [`Gradient`] takes its values from its centroid. Where vectors bend so much that a radicand falls below 1/64, it counts as that.
 #[derive(Clone, Copy, Debug)]
