@@ -32,7 +32,7 @@ use crate::{
 /// between lines would give.
 ///
 /// Exact but for rounding, on every facet alike. With normals at most 60° apart, diffuse intensity is off by at most 7·10⁻⁴ on
-/// triangles no less than 12 pixels high (RMS 1.8·10⁻⁴), and 1.8·10⁻³ from 2 pixels on (RMS 2·10⁻⁴). A triangle too thin for a
+/// triangles no less than 12 pixels high (RMS 1.5·10⁻⁴), and 1.8·10⁻³ from 2 pixels on (RMS 2·10⁻⁴). A triangle too thin for a
 /// [`Gradient`] takes its values from its centroid. Where vectors bend so much that a radicand falls below 1/64, it counts as that.
 #[derive(Clone, Copy, Debug)]
 pub struct DuffDifferences;
