@@ -93,15 +93,19 @@ pub use scanner::{Line, Lines, Scanner};
 pub use shade::{
     angular_trapezia::AngularTrapezia,
     angular_triangle::AngularTriangle,
+    bishop_weimer::BishopWeimer,
     choose::{ByHighlight, ByMaterial, Choose, GouraudPhong},
     duff_barycentric::DuffBarycentric,
     duff_differences::DuffDifferences,
     duff_direct::DuffDirect,
     flat::Flat,
     gouraud::Gouraud,
+    hybrid::Hybrid,
     linear_angle::LinearAngle,
     phong::Phong,
     phong_planes::PhongPlanes,
+    quadratic_dots::QuadraticDots,
+    quadratic_intensity::QuadraticIntensity,
     Intensity, Paint, Shade,
 };
 pub use sink::{

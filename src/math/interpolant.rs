@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use super::{
     gradient::Gradient,
+    product::scale,
     quadratic::{Differences, Quadratic},
 };
 
@@ -51,6 +52,20 @@ pub struct Slope {
     pub step: i32,
 }
 
+impl Plane {
+    /// The plane through values at the corners, of at most 15 bits and a sign, so many bits finer than these; the same
+    /// everywhere, their mean, for a triangle that has no gradient.
+    #[inline]
+    #[must_use]
+    pub fn new(gradient: Option<&Gradient>, [v0, v1, v2]: [i32; 3], finer: i32) -> Self {
+        let [at, x, y] = match gradient {
+            Some(gradient) => gradient.linear(v0, v1 - v0, v2 - v0, finer),
+            None => [scale(((v0 + v1 + v2) << 8) / 3, finer - 8), 0, 0],
+        };
+        Self { at, x, y }
+    }
+}
+
 /// Linear between the corners: ten bits finer than the values there.
 impl Interpolant for Plane {
     type Steps = Slope;
@@ -58,12 +73,8 @@ impl Interpolant for Plane {
     const ZERO: Self = Self { at: 0, x: 0, y: 0 };
 
     #[inline]
-    fn through(gradient: Option<&Gradient>, [v0, v1, v2]: [i32; 3], _: [i32; 3]) -> Self {
-        let [at, x, y] = match gradient {
-            Some(gradient) => gradient.linear(v0, v1 - v0, v2 - v0, Self::FINER),
-            None => [((v0 + v1 + v2) << Self::FINER) / 3, 0, 0],
-        };
-        Self { at, x, y }
+    fn through(gradient: Option<&Gradient>, corners: [i32; 3], _: [i32; 3]) -> Self {
+        Self::new(gradient, corners, Self::FINER)
     }
 
     #[inline(always)]
@@ -90,26 +101,7 @@ impl Interpolant for Quadratic {
 
     #[inline]
     fn through(gradient: Option<&Gradient>, corners: [i32; 3], middles: [i32; 3]) -> Self {
-        let [v0, v1, v2] = corners;
-        let [m01, m12, m20] = middles;
-        let Some(gradient) = gradient else {
-            // The centroid's share of the corners is −1/9, that of the middles 4/9.
-            return Self { at: (((4 * (m01 + m12 + m20) - (v0 + v1 + v2)) << 10) / 9) << 4, ..Self::ZERO };
-        };
-        let mut bows = [4 * m01 - 2 * (v0 + v1), 4 * m12 - 2 * (v1 + v2), 4 * m20 - 2 * (v2 + v0)];
-        let [mut v0, mut v1, mut v2] = corners;
-        let mut finer = Self::FINER;
-        // Thirteen bits for the largest.
-        while bows.iter().any(|bow| bow.unsigned_abs() >= 1 << 13) {
-            bows = bows.map(|bow| bow >> 1);
-            [v0, v1, v2] = [v0 >> 1, v1 >> 1, v2 >> 1];
-            finer += 1;
-        }
-        if 2 * gradient.exponent + finer > Self::MOST {
-            let [at, x, y] = gradient.linear(v0, v1 - v0, v2 - v0, finer);
-            return Self { at, x, y, ..Self::ZERO };
-        }
-        Self::new(gradient, [v0, v1, v2], bows, finer)
+        Self::through_six(gradient, corners, middles, Self::FINER)
     }
 
     #[inline(always)]

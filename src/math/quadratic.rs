@@ -1,6 +1,10 @@
 //! Quadratics on the screen.
 
-use super::{gradient::Gradient, product::mul_high};
+use super::{
+    gradient::Gradient,
+    interpolant::Plane,
+    product::{mul_high, scale},
+};
 
 /// A value that is quadratic on the screen: the coefficients of 1, X, Y, X², XY and Y², all wrapping.
 ///
@@ -79,6 +83,39 @@ impl Quadratic {
         }
     }
 
+    /// The same for any triangle, and for values and bows of up to 18 bits: as exact as [`new`](Self::new) can have it, linear where
+    /// the triangle is too thin for more, the value at the centroid everywhere where it has no gradient.
+    #[inline]
+    #[must_use]
+    pub fn bowed(gradient: Option<&Gradient>, corners: [i32; 3], bows: [i32; 3], mut finer: i32) -> Self {
+        let Some(gradient) = gradient else {
+            let sum = 3 * corners.iter().sum::<i32>() + bows.iter().sum::<i32>();
+            return Self { at: scale((sum << 8) / 9, finer - 8), ..Self::ZERO };
+        };
+        let bits = |values: [i32; 3]| values.iter().fold(0, |bits, value| bits | (value ^ value >> 31));
+        let mut bits = bits(bows) | bits(corners) >> 2;
+        let mut less = 0;
+        while bits >= 1 << 13 {
+            bits >>= 1;
+            less += 1;
+        }
+        finer += less;
+        let [v0, v1, v2] = corners.map(|value| value >> less);
+        if 2 * gradient.exponent + finer > Self::MOST {
+            return Plane::new(Some(gradient), [v0, v1, v2], finer).into();
+        }
+        Self::new(gradient, [v0, v1, v2], bows.map(|bow| bow >> less), finer)
+    }
+
+    /// As [`bowed`](Self::bowed), given the values in the middles of edges 01, 12, 20; all of at most 15 bits and a sign.
+    #[inline]
+    #[must_use]
+    pub fn through_six(gradient: Option<&Gradient>, corners: [i32; 3], middles: [i32; 3], finer: i32) -> Self {
+        let ([v0, v1, v2], [m01, m12, m20]) = (corners, middles);
+        let bows = [4 * m01 - 2 * (v0 + v1), 4 * m12 - 2 * (v1 + v2), 4 * m20 - 2 * (v2 + v0)];
+        Self::bowed(gradient, corners, bows, finer)
+    }
+
     /// The quadratic along line y, from pixel x on.
     #[inline(always)]
     #[must_use]
@@ -93,6 +130,12 @@ impl Quadratic {
             step: slope.wrapping_add(ax).wrapping_add(self.xx),
             second: self.xx.wrapping_add(self.xx),
         }
+    }
+}
+
+impl From<Plane> for Quadratic {
+    fn from(Plane { at, x, y }: Plane) -> Self {
+        Self { at, x, y, ..Self::ZERO }
     }
 }
 

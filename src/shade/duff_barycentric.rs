@@ -44,13 +44,16 @@ enum Cosines<const LIGHTS: usize, N> {
     /// Normals bend so little that the cosines are quadratics: for each light that with l times its intensity, Q30, and the
     /// height of that with h.
     Gentle([[Quadratic; 2]; LIGHTS]),
-    /// Numerators and denominator apart.
-    Steep {
-        /// For each light N·L (times its intensity) and N·H.
-        dots: [[N; 2]; LIGHTS],
-        /// u, Q28.
-        bend: Quadratic,
-    },
+    Steep(Steep<LIGHTS, N>),
+}
+
+/// Numerators and denominator of the cosines apart: N is an interpolant on a facet, its steps along a line.
+#[derive(Clone, Copy, Debug)]
+pub struct Steep<const LIGHTS: usize, N, B = Quadratic> {
+    /// For each light N·L (times its intensity) and N·H.
+    dots: [[N; 2]; LIGHTS],
+    /// u, Q28.
+    bend: B,
 }
 
 /// What is stepped along a line.
@@ -64,7 +67,7 @@ pub struct Registers<const LIGHTS: usize, N> {
 #[derive(Clone, Copy, Debug)]
 enum Along<const LIGHTS: usize, N> {
     Gentle([[Differences; 2]; LIGHTS]),
-    Steep { dots: [[N; 2]; LIGHTS], bend: Differences },
+    Steep(Steep<LIGHTS, N, Differences>),
 }
 
 impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
@@ -83,7 +86,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
             .as_ref()
             .filter(|_| !L::IN_SCENE)
             .and_then(|gradient| gentle(triangle, edge, shiny.then_some(&surface.material.power), gradient))
-            .unwrap_or_else(|| steep(triangle, &middles, edge, shiny, gradient.as_ref()));
+            .unwrap_or_else(|| Cosines::Steep(Steep::new(triangle, &middles, shiny, gradient.as_ref())));
         Facet { anchor: Gradient::anchor(p0), shiny, cosines }
     }
 
@@ -93,10 +96,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
         let (x, y) = (x - ax, y - ay);
         let cosines = match &facet.cosines {
             Cosines::Gentle(cosines) => Along::Gentle(cosines.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y)))),
-            Cosines::Steep { dots, bend } => Along::Steep {
-                dots: dots.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y))),
-                bend: bend.along(x, y),
-            },
+            Cosines::Steep(steep) => Along::Steep(steep.along(x, y)),
         };
         Registers { shiny: facet.shiny, cosines }
     }
@@ -104,7 +104,6 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
     #[inline]
     fn run<P>(r: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         let power = &surface.material.power;
-        let lit = |product| lit(product, L::Product::FINER);
         match r.cosines {
             Along::Gentle(mut cosines) if r.shiny && shows(&cosines, pixels.len()) => {
                 for pixel in pixels {
@@ -125,28 +124,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
                     *pixel = paint.dull(intensity.limited(LIGHTS).diffuse);
                 }
             }
-            Along::Steep { mut dots, mut bend } if r.shiny => {
-                for pixel in pixels {
-                    let root = inverse_root(bend.next());
-                    let mut intensity = Intensity::default();
-                    for ([diffuse, specular], strength) in dots.iter_mut().zip(surface.intensities) {
-                        // Q16 · Q15: cosines in Q31.
-                        intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;
-                        intensity.specular += (power.at(lit(specular.next()).wrapping_mul(root)) * u32::from(*strength)) >> 15;
-                    }
-                    *pixel = paint.mix(intensity.limited(LIGHTS));
-                }
-            }
-            Along::Steep { mut dots, mut bend } => {
-                for pixel in pixels {
-                    let root = inverse_root(bend.next());
-                    let mut intensity = Intensity::default();
-                    for [diffuse, _] in &mut dots {
-                        intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;
-                    }
-                    *pixel = paint.dull(intensity.limited(LIGHTS).diffuse);
-                }
-            }
+            Along::Steep(steep) => steep.run::<P, L>(r.shiny, surface, pixels, paint),
         }
     }
 }
@@ -158,21 +136,30 @@ fn shows<const LIGHTS: usize>(cosines: &[[Differences; 2]; LIGHTS], pixels: usiz
 }
 
 /// Whether the power can show anywhere on the triangle, given its largest edge constant and what its product with h may reach.
+pub(super) fn is_shiny(most: i32, edge: u32, power: &Power) -> bool {
+    most_cosine(most, edge) > power.start() >> 2
+}
+
+/// At least as much as N·H/|N| reaches on the triangle, Q29, one at most, given the same.
 ///
 /// |N| is nowhere less than by u = 2/3 of the largest edge constant, as Σ λi λj ≤ 1/3.
-pub(super) fn is_shiny(most: i32, edge: u32, power: &Power) -> bool {
+#[inline(always)]
+pub(super) fn most_cosine(most: i32, edge: u32) -> u32 {
     // Where 1/|N| may pass 2, every facet that faces a highlight at all counts.
     if most <= 0 || edge > 1 << 15 {
-        return most > 0;
+        return if most > 0 { 1 << 29 } else { 0 };
     }
     // 2/3 of a Q15 number in Q28, without a division.
     let bend = edge * (16384 / 3 + 1);
-    // Q14 · Q15, rounded up a little: the cosine in Q29.
-    (most as u32 + 2) * (inverse_root(bend as i32) + 4) > power.start() >> 2
+    // Q14 · Q15, rounded up a little.
+    ((most as u32 + 2) * (inverse_root(bend as i32) + 4)).min(1 << 29)
 }
 
 /// At least as much as N·H reaches with any light, Q14.
-fn most<const LIGHTS: usize, L: LightSource>(triangle: &Triangle<'_, LIGHTS, L>, middles: &[[[i16; 2]; LIGHTS]; 3]) -> i32 {
+pub(super) fn most<const LIGHTS: usize, L: LightSource>(
+    triangle: &Triangle<'_, LIGHTS, L>,
+    middles: &[[[i16; 2]; LIGHTS]; 3],
+) -> i32 {
     let [c0, c1, c2] = &triangle.corners;
     let dots = c0.dots.iter().chain(&c1.dots).chain(&c2.dots);
     let most = dots.map(|[_, specular]| *specular).max().unwrap_or(0).into();
@@ -223,39 +210,85 @@ fn gentle<const LIGHTS: usize, L: LightSource>(
 }
 
 /// The largest edge constant at which the diffuse cosines are quadratic, Q15: 34° between two normals.
-const GENTLE: u32 = 32768 / 6;
+pub(super) const GENTLE: u32 = 32768 / 6;
 /// The same where a highlight shows, as e² times the exponent, Q16: what is off at the highlight's flank grows with both.
 const GENTLE_SHINY: u32 = 65536 / 2;
 
 /// `1/√(1 − e/2) − 1` for an edge constant up to [`GENTLE`], Q15: how much longer the normal gets in the middle of the edge.
 ///
-/// By e/4 · (1 + 0.4 e); error at most 3·10⁻⁴.
+/// By e/4 · (1 + 0.4 e); error at most 3·10⁻⁴, and 5·10⁻³ up to e = 1/2.
 #[inline(always)]
-const fn rise(e: i32) -> i32 {
+pub(super) const fn rise(e: i32) -> i32 {
     (e * ((1 << 15) + ((e * 13107) >> 15))) >> 17
 }
 
-/// Numerators and denominator, whatever the triangle; N·H only if it is shiny.
-fn steep<const LIGHTS: usize, L: LightSource>(
-    triangle: &Triangle<'_, LIGHTS, L>,
-    middles: &[[[i16; 2]; LIGHTS]; 3],
-    edge: u32,
-    shiny: bool,
-    gradient: Option<&Gradient>,
-) -> Cosines<LIGHTS, L::Product> {
-    let mut dots = [[L::Product::ZERO; 2]; LIGHTS];
-    let ([c0, c1, c2], [m01, m12, m20]) = (&triangle.corners, middles);
-    let corners = c0.dots.iter().zip(&c1.dots).zip(&c2.dots);
-    let middles = m01.iter().zip(m12).zip(m20);
-    for (([diffuse, specular], ((v0, v1), v2)), ((m01, m12), m20)) in dots.iter_mut().zip(corners).zip(middles) {
-        let [[l0, h0], [l1, h1], [l2, h2]] = [*v0, *v1, *v2].map(|dots| dots.map(i32::from));
-        let [[l01, h01], [l12, h12], [l20, h20]] = [*m01, *m12, *m20].map(|dots| dots.map(i32::from));
-        *diffuse = L::Product::through(gradient, [l0, l1, l2], [l01, l12, l20]);
+impl<const LIGHTS: usize, N: Interpolant> Steep<LIGHTS, N> {
+    /// Whatever the triangle; N·H only if it is shiny.
+    pub(super) fn new<L: LightSource>(
+        triangle: &Triangle<'_, LIGHTS, L>,
+        middles: &[[[i16; 2]; LIGHTS]; 3],
+        shiny: bool,
+        gradient: Option<&Gradient>,
+    ) -> Self {
+        let mut dots = [[N::ZERO; 2]; LIGHTS];
+        let ([c0, c1, c2], [m01, m12, m20]) = (&triangle.corners, middles);
+        let corners = c0.dots.iter().zip(&c1.dots).zip(&c2.dots);
+        let middles = m01.iter().zip(m12).zip(m20);
+        for (([diffuse, specular], ((v0, v1), v2)), ((m01, m12), m20)) in dots.iter_mut().zip(corners).zip(middles) {
+            let [[l0, h0], [l1, h1], [l2, h2]] = [*v0, *v1, *v2].map(|dots| dots.map(i32::from));
+            let [[l01, h01], [l12, h12], [l20, h20]] = [*m01, *m12, *m20].map(|dots| dots.map(i32::from));
+            *diffuse = N::through(gradient, [l0, l1, l2], [l01, l12, l20]);
+            if shiny {
+                *specular = N::through(gradient, [h0, h1, h2], [h01, h12, h20]);
+            }
+        }
+        let edge = triangle.edges.iter().fold(0, |most, e| most.max(*e));
+        Self { dots, bend: bend(gradient, edge.into(), triangle.edges) }
+    }
+
+    /// Along line y, from pixel x on, both counted from the anchor.
+    #[inline(always)]
+    pub(super) fn along(&self, x: i32, y: i32) -> Steep<LIGHTS, N::Steps, Differences> {
+        let dots = self.dots.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y)));
+        Steep { dots, bend: self.bend.along(x, y) }
+    }
+}
+
+impl<const LIGHTS: usize, N: Steps> Steep<LIGHTS, N, Differences> {
+    /// Shades pixels.
+    #[inline(always)]
+    pub(super) fn run<P, L: LightSource>(
+        self,
+        shiny: bool,
+        surface: &Surface<'_, LIGHTS>,
+        pixels: &mut [P],
+        paint: &impl Paint<P>,
+    ) {
+        let power = &surface.material.power;
+        let lit = |product| lit(product, L::Product::FINER);
+        let Self { mut dots, mut bend } = self;
         if shiny {
-            *specular = L::Product::through(gradient, [h0, h1, h2], [h01, h12, h20]);
+            for pixel in pixels {
+                let root = inverse_root(bend.next());
+                let mut intensity = Intensity::default();
+                for ([diffuse, specular], strength) in dots.iter_mut().zip(surface.intensities) {
+                    // Q16 · Q15: cosines in Q31.
+                    intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;
+                    intensity.specular += (power.at(lit(specular.next()).wrapping_mul(root)) * u32::from(*strength)) >> 15;
+                }
+                *pixel = paint.mix(intensity.limited(LIGHTS));
+            }
+        } else {
+            for pixel in pixels {
+                let root = inverse_root(bend.next());
+                let mut intensity = Intensity::default();
+                for [diffuse, _] in &mut dots {
+                    intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;
+                }
+                *pixel = paint.dull(intensity.limited(LIGHTS).diffuse);
+            }
         }
     }
-    Cosines::Steep { dots, bend: bend(gradient, edge, triangle.edges) }
 }
 
 /// u, Q28, given the edge constants and the largest of them; that at the centroid for the thinnest triangles where normals bend

@@ -38,8 +38,9 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for Flat {
     }
 }
 
-/// `u = 1 − |N|²` at the centroid, Q28: 2/9 of the sum of the edge constants.
+/// `u = 1 − |N|²` at the centroid, Q28: 2/9 of the sum of the edge constants, to 4·10⁻⁵ of it.
 pub(super) fn bend_at_centroid(edges: &[u16; 3]) -> i32 {
     let sum: u32 = edges.iter().map(|e| u32::from(*e)).sum();
-    ((sum << 14) / 9) as i32
+    // 2¹⁴/9, without a division.
+    ((sum * 14563) >> 3) as i32
 }

@@ -11,15 +11,19 @@ use crate::{
 pub mod angular;
 pub mod angular_trapezia;
 pub mod angular_triangle;
+pub mod bishop_weimer;
 pub mod choose;
 pub mod duff_barycentric;
 pub mod duff_differences;
 pub mod duff_direct;
 pub mod flat;
 pub mod gouraud;
+pub mod hybrid;
 pub mod linear_angle;
 pub mod phong;
 pub mod phong_planes;
+pub mod quadratic_dots;
+pub mod quadratic_intensity;
 pub mod trapezium;
 
 /// Light that a surface sends to the eye, before its colours: ambient apart, diffuse and specular each summed over the lights
