@@ -17,10 +17,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     write("README.md", &[("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?)])?;
     if arguments.all {
         gallery::run()?;
-        write(
-            "docs/shading.md",
-            &[("accuracy", accuracy::every_case()?), ("costs", costs::text(&[])?), ("adaptive", adaptive::text()?)],
-        )?;
+        // One by one, as each takes long.
+        write("docs/shading.md", &[("accuracy", accuracy::every_case()?)])?;
+        write("docs/shading.md", &[("adaptive", adaptive::text()?)])?;
+        write("docs/shading.md", &[("costs", costs::text(&[])?)])?;
     }
     Ok(())
 }
