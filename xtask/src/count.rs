@@ -23,7 +23,7 @@ struct Stage {
 /// The stages. An address belongs to the first that claims a function there, be it inlined or not; what none claims
 /// (`math`, the compiler's own library) counts for the stage that it is called from.
 const STAGES: [Stage; 5] = [
-    Stage { name: "prepare", modules: &["beamshade::frame"], functions: &[] },
+    Stage { name: "prepare", modules: &["beamshade::frame", "beamshade::scan::bucket::Buckets"], functions: &[] },
     Stage { name: "set-up", modules: &[], functions: &["facet"] },
     Stage { name: "background", modules: &[], functions: &["fill_background"] },
     Stage { name: "shade", modules: &["beamshade::shade", "beamshade::sink"], functions: &[] },
