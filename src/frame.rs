@@ -341,7 +341,7 @@ impl<
 
     /// The finished frame.
     #[must_use]
-    pub fn picture(&self) -> Picture<'_, LIGHTS, L> {
+    pub fn picture(&self) -> Picture<'_, 'm, LIGHTS, L> {
         let geometry = Geometry {
             viewport: self.buckets.viewport,
             vertices: self.vertices.get(..self.used).unwrap_or_default(),

@@ -67,7 +67,9 @@
 
 #![no_std]
 
+pub mod baked;
 pub mod frame;
+pub mod frozen;
 pub mod math;
 pub mod model;
 pub mod scan;
@@ -76,7 +78,9 @@ pub mod shade;
 pub mod sink;
 pub mod split;
 
+pub use baked::Baked;
 pub use frame::{Frame, Full};
+pub use frozen::Frozen;
 pub use math::{angle::Turn, rotation::Rotation, Length};
 pub use model::{
     camera::Camera,

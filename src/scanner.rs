@@ -7,19 +7,20 @@ use embedded_graphics::primitives::Rectangle;
 use crate::{
     model::{
         light::{Light, LightSource},
-        material::Color,
+        material::{Color, Material},
     },
     scan::{
         active::Active,
+        bucket::TriangleId,
         geometry::Source,
         list::ActiveList,
-        picture::{Background, Picture},
+        picture::Picture,
         resolve::Sweep,
         table::{Span, Table},
         triangle::Triangle,
     },
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
-    sink::ink::Ink,
+    sink::{ink::Ink, row::Row},
 };
 
 /// The state of a walk down a picture: up to `ACTIVE` triangles that cross one line, each with a facet of the shading method.
@@ -40,7 +41,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     }
 
     /// Starts on a picture, above its first line.
-    pub fn start<'s>(&'s mut self, picture: Picture<'s, LIGHTS, L>) -> Lines<'s, ACTIVE, S, LIGHTS, L> {
+    pub fn start<'s, 'm>(&'s mut self, picture: Picture<'s, 'm, LIGHTS, L>) -> Lines<'s, 'm, ACTIVE, S, LIGHTS, L> {
         // The walk to the first line asked for clears the list.
         Lines { scanner: self, picture, line: None, dropped: 0 }
     }
@@ -66,20 +67,34 @@ pub struct Line {
     /// Triangles left out for want of room, on this and all lines above: of those that cross a line, the ones whose nearest
     /// corner is farthest.
     pub dropped: u16,
+    /// Visible spans left out for want of room in the table that they were to be [baked](Lines::bake) or
+    /// [frozen](crate::Frozen::take) into: the rightmost ones, and those of facets without room. Always 0 for a row.
+    pub left_out: u16,
+}
+
+impl Line {
+    /// A line without triangles.
+    pub(crate) const NONE: Self = Self { active: 0, spans: 0, facets: 0, bent: 0, dropped: 0, left_out: 0 };
 }
 
 /// The lines of one picture, in any order; from top to bottom is fastest.
 #[derive(Debug)]
-pub struct Lines<'s, const ACTIVE: usize, S: Shade<LIGHTS, L> = DuffBarycentric, const LIGHTS: usize = 1, L: LightSource = Light>
-{
+pub struct Lines<
+    's,
+    'm,
+    const ACTIVE: usize,
+    S: Shade<LIGHTS, L> = DuffBarycentric,
+    const LIGHTS: usize = 1,
+    L: LightSource = Light,
+> {
     scanner: &'s mut Scanner<ACTIVE, S, LIGHTS, L>,
-    picture: Picture<'s, LIGHTS, L>,
+    picture: Picture<'s, 'm, LIGHTS, L>,
     /// The line that the active list stands on.
     line: Option<u16>,
     dropped: u16,
 }
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, ACTIVE, S, LIGHTS, L> {
+impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'s, 'm, ACTIVE, S, LIGHTS, L> {
     /// Where the picture lies on the panel, and its size.
     #[must_use]
     pub const fn viewport(&self) -> Rectangle {
@@ -94,30 +109,25 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     #[inline(never)]
     pub fn line<P: Ink>(&mut self, y: u16, row: &mut [P]) -> Line {
         if !self.seek(y) {
-            return Line { dropped: self.dropped, ..Line::default() };
+            return self.none();
         }
-        let Scanner { list, facets, table } = &mut *self.scanner;
-        let picture = &self.picture;
-        let width = picture.geometry.width().min(row.len() as i32);
-        let background = background(picture, y);
-        let pixels = row.get_mut(..width as usize).unwrap_or_default();
-        let mut line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::default() };
-        let mut from = 0;
-        if let Some(dressed) = list.extents().first().and_then(|extent| Dressed::new(picture, extent.look(), y.into())) {
-            let (spans, made, bent) = (0, 0, 0);
-            let mut row =
-                Row::<P, S, ACTIVE, LIGHTS, L> { picture, facets, pixels, from, background, dressed, spans, made, bent };
-            Sweep::new(y, width).run(list, &picture.geometry, table, |spans, slots| row.see(spans, slots));
-            (from, line) = (row.from, Line { spans: row.spans, facets: row.made, bent: row.bent, ..line });
-        }
-        if from < pixels.len() {
-            fill(pixels, from, pixels.len(), background);
-        }
+        let width = self.width().min(row.len());
+        let row = Row::new(row.get_mut(..width).unwrap_or_default(), self.background(y));
+        let intensities = self.picture.intensities;
+        let first = self.first_material();
+        let Some(material) = first else {
+            row.finish();
+            return self.none();
+        };
+        let surface = Surface { material, intensities };
+        let shading = Shading { row, dressed: Dressed { y: y.into(), surface, paint: P::paint(material) } };
+        let (line, shading) = self.walk(y, width, material, shading);
+        shading.row.finish();
         line
     }
 
     /// The spans of line y with the triangles seen in them, left to right, handed to `see` one by one.
-    pub fn spans(&mut self, y: u16, mut see: impl FnMut(core::ops::Range<u16>, Source)) {
+    pub fn spans(&mut self, y: u16, mut see: impl FnMut(Range<u16>, Source)) {
         if !self.seek(y) {
             return;
         }
@@ -133,8 +143,51 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
         });
     }
 
+    /// The picture.
+    pub(crate) const fn picture(&self) -> &Picture<'s, 'm, LIGHTS, L> {
+        &self.picture
+    }
+
+    /// Forgets where it stands, and all facets.
+    pub(crate) const fn rewind(&mut self) {
+        self.line = None;
+    }
+
+    pub(crate) fn width(&self) -> usize {
+        self.picture.geometry.width() as usize
+    }
+
+    /// What fills line y where no triangle is seen.
+    #[inline(always)]
+    pub(crate) fn background(&self, y: u16) -> Option<Color> {
+        self.picture.background.at(y, self.picture.geometry.height())
+    }
+
+    /// The counts of a line without triangles.
+    pub(crate) fn none(&self) -> Line {
+        Line { dropped: self.dropped, ..Line::NONE }
+    }
+
+    /// The material of the leftmost triangle of the line that the list stands on, if there is any.
+    #[inline(always)]
+    pub(crate) fn first_material(&self) -> Option<&'m Material> {
+        self.scanner.list.extents().first().and_then(|extent| self.picture.geometry.material(extent.look()))
+    }
+
+    /// Hands the visible spans of line y, on which the list stands, to whoever takes them, with that material ready.
+    #[inline(always)]
+    pub(crate) fn walk<T: Take<'m, S, LIGHTS, L>>(&mut self, y: u16, width: usize, material: &'m Material, to: T) -> (Line, T) {
+        let Scanner { list, facets, table } = &mut *self.scanner;
+        let picture = &self.picture;
+        let look = list.extents().first().map_or(0, |extent| extent.look());
+        let line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::NONE };
+        let mut walk = Walk { picture, facets, to, look, material, spans: 0, made: 0, bent: 0 };
+        Sweep::new(y, width as i32).run(list, &picture.geometry, table, |spans, slots| walk.see(spans, slots));
+        (Line { spans: walk.spans, facets: walk.made, bent: walk.bent, ..line }, walk.to)
+    }
+
     /// Brings the active list to line y; false if the picture has no such line.
-    fn seek(&mut self, y: u16) -> bool {
+    pub(crate) fn seek(&mut self, y: u16) -> bool {
         if y >= self.picture.geometry.height() {
             return false;
         }
@@ -155,50 +208,60 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     }
 }
 
-/// A row on its way to be stored, from left to right.
-struct Row<'a, 'p, P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
-    picture: &'a Picture<'p, LIGHTS, L>,
+/// Who takes the visible spans of a line, from left to right: a row of pixels, a baked line, a frozen picture.
+pub(crate) trait Take<'m, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> {
+    /// Spans have another material from here on.
+    fn dress(&mut self, material: &'m Material);
+
+    /// Keeps a facet that was just set up, if it has to; returns its number, from 1 on.
+    #[inline(always)]
+    fn keep(&mut self, _facet: &S::Facet, _id: TriangleId) -> u16 {
+        1
+    }
+
+    /// A span, which is not empty, of the facet with that number.
+    fn span(&mut self, pixels: Range<usize>, facet: &S::Facet, number: u16);
+}
+
+/// Spans on their way to whoever takes them.
+struct Walk<'a, 'f, 'm, T, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
+    picture: &'a Picture<'f, 'm, LIGHTS, L>,
     facets: &'a mut [S::Facet; ACTIVE],
-    pixels: &'a mut [P],
-    /// The first pixel that is not stored.
-    from: usize,
-    background: Option<Color>,
-    dressed: Dressed<'p, P, LIGHTS>,
+    to: T,
+    /// The material, and its number.
+    look: u16,
+    material: &'m Material,
     /// Counts of [`Line`]: spans, facets set up, and of those the bent ones.
     spans: u16,
     made: u16,
     bent: u16,
 }
 
-impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> Row<'_, '_, P, S, ACTIVE, LIGHTS, L> {
-    /// Shades spans that lie in the picture, and the background before each.
+impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>
+    Walk<'_, '_, 'm, T, S, ACTIVE, LIGHTS, L>
+{
+    /// Hands on spans that lie in the picture, each with its facet.
     #[inline(never)]
     fn see(&mut self, spans: &[Span], slots: &mut [Active; ACTIVE]) {
         self.spans += spans.len() as u16;
         for span in spans {
-            let Range { start, end } = span.range();
-            let look = span.look();
-            if start >= end {
+            let pixels = span.range();
+            if pixels.start >= pixels.end {
                 self.skip();
                 continue;
             }
-            if self.from < start {
-                self.fill(start);
+            if self.look != span.look() {
+                self.dress(span.look());
             }
-            self.from = end;
-            if self.dressed.look != look {
-                self.dress(look);
-            }
-            let dressed = &self.dressed;
             let slot = usize::from(span.slot());
             let (Some(active), Some(facet)) = (slots.get_mut(slot), self.facets.get_mut(slot)) else { continue };
-            if !active.shaded {
-                active.shaded = true;
+            if active.facet == 0 {
+                let surface = Surface { material: self.material, intensities: self.picture.intensities };
                 self.made += 1;
-                self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, active, &dressed.surface, facet));
+                self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, active, &surface, facet));
+                active.facet = self.to.keep(facet, active.id);
             }
-            let Some(pixels) = self.pixels.get_mut(start..end) else { continue };
-            shade::<P, S, LIGHTS, L>(dressed, facet, start as i32, pixels);
+            self.to.span(pixels, facet, active.facet);
         }
     }
 
@@ -213,62 +276,46 @@ impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: L
     #[cold]
     #[inline(never)]
     fn dress(&mut self, look: u16) {
-        if let Some(dressed) = Dressed::new(self.picture, look, self.dressed.y) {
-            self.dressed = dressed;
+        if let Some(material) = self.picture.geometry.material(look) {
+            (self.look, self.material) = (look, material);
+            self.to.dress(material);
         }
     }
+}
 
-    /// Fills pixels up to there with the background.
-    #[inline(always)]
-    fn fill(&mut self, to: usize) {
-        fill(self.pixels, self.from, to, self.background);
-    }
+/// Spans shaded into a row at once.
+struct Shading<'a, 'm, 'r, P: Ink, const LIGHTS: usize> {
+    row: Row<'r, P>,
+    dressed: Dressed<'a, 'm, P, LIGHTS>,
 }
 
 /// A material made ready for a line.
-struct Dressed<'p, P: Ink, const LIGHTS: usize> {
-    /// Its number.
-    look: u16,
+struct Dressed<'a, 'm, P: Ink, const LIGHTS: usize> {
     /// The line.
     y: i32,
-    surface: Surface<'p, LIGHTS>,
-    paint: P::Paint<'p>,
+    surface: Surface<'a, LIGHTS>,
+    paint: P::Paint<'m>,
 }
 
-impl<'p, P: Ink, const LIGHTS: usize> Dressed<'p, P, LIGHTS> {
-    #[inline(never)]
-    fn new<L: LightSource>(picture: &Picture<'p, LIGHTS, L>, look: u16, y: i32) -> Option<Self> {
-        let material = picture.geometry.material(look)?;
-        let surface = Surface { material, intensities: picture.intensities };
-        Some(Self { look, y, surface, paint: P::paint(material) })
+impl<'m: 'a, 'a, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
+    for Shading<'a, 'm, '_, P, LIGHTS>
+{
+    #[inline(always)]
+    fn dress(&mut self, material: &'m Material) {
+        self.dressed.surface.material = material;
+        self.dressed.paint = P::paint(material);
     }
-}
 
-/// The background's colour on line y; none if pixels stay what they were.
-fn background<const LIGHTS: usize, L: LightSource>(picture: &Picture<'_, LIGHTS, L>, y: u16) -> Option<Color> {
-    match picture.background {
-        Background::Plain(color) => Some(color),
-        Background::Gradient { top, bottom } => Some(between(top, bottom, y, picture.geometry.height())),
-        Background::Keep => None,
+    #[inline(always)]
+    fn span(&mut self, Range { start, end }: Range<usize>, facet: &S::Facet, _: u16) {
+        shade::<P, S, LIGHTS, L>(&self.dressed, facet, start as i32, self.row.span(start, end));
     }
-}
-
-/// Fills pixels with the background.
-#[inline(never)]
-fn fill<P: Ink>(row: &mut [P], from: usize, to: usize, background: Option<Color>) {
-    let (Some(color), Some(pixels)) = (background, row.get_mut(from..to)) else { return };
-    let pixel = P::plain(color);
-    let mut eights = pixels.chunks_exact_mut(8);
-    for eight in &mut eights {
-        eight.fill(pixel);
-    }
-    eights.into_remainder().fill(pixel);
 }
 
 /// Shades one span.
 #[inline(never)]
 fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
-    dressed: &Dressed<'_, P, LIGHTS>,
+    dressed: &Dressed<'_, '_, P, LIGHTS>,
     facet: &S::Facet,
     x: i32,
     pixels: &mut [P],
@@ -279,7 +326,7 @@ fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
 /// Sets up the facet of a triangle; whether its normals bend beyond what shading follows.
 #[inline(never)]
 fn set_up<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
-    picture: &Picture<'_, LIGHTS, L>,
+    picture: &Picture<'_, '_, LIGHTS, L>,
     active: &Active,
     surface: &Surface<'_, LIGHTS>,
     facet: &mut S::Facet,
@@ -304,15 +351,4 @@ const fn is_bent(edges: &[u16; 3]) -> bool {
     let [e01, e12, e20] = [e01 as u32, e12 as u32, e20 as u32];
     // Below one, all of them pass neither.
     (e01 | e12 | e20) >= 1 << 15 && (e01 > 2 * MOST || e12 > 2 * MOST || e20 > 2 * MOST || 2 * (e01 + e12 + e20) > 9 * MOST)
-}
-
-/// The colour of a gradient on line y.
-fn between(top: Color, bottom: Color, y: u16, height: u16) -> Color {
-    let steps = u32::from(height.saturating_sub(1)).max(1);
-    let (y, rest) = (u32::from(y), steps - u32::from(y).min(steps));
-    let mut color = top;
-    for (to, from) in color.0.iter_mut().zip(bottom.0) {
-        *to = ((u32::from(*to) * rest + u32::from(from) * y + steps / 2).checked_div(steps).unwrap_or(0)) as u16;
-    }
-    color
 }

@@ -151,7 +151,7 @@ fn single(vector: DVec3) -> [f32; 3] {
 pub fn frame<T, const LIGHTS: usize, L: FromReference>(
     scene: &Scene<'_>,
     meshes: &Meshes,
-    see: impl FnOnce(beamshade::Picture<'_, LIGHTS, L>) -> T,
+    see: impl FnOnce(beamshade::Picture<'_, '_, LIGHTS, L>) -> T,
 ) -> Result<T> {
     fill(scene, meshes, None::<&Regular>, |picture, _| see(picture))
 }
@@ -161,7 +161,7 @@ fn fill<T, const LIGHTS: usize, L: FromReference>(
     scene: &Scene<'_>,
     meshes: &Meshes,
     split: Option<&impl Split<LIGHTS, L>>,
-    see: impl FnOnce(beamshade::Picture<'_, LIGHTS, L>, Vec<Splits>) -> T,
+    see: impl FnOnce(beamshade::Picture<'_, '_, LIGHTS, L>, Vec<Splits>) -> T,
 ) -> Result<T> {
     let borrowed: Vec<_> = meshes.0.iter().map(Quantized::mesh).collect();
     let mut frame: Box<BigFrame<'_, LIGHTS, L>> = Box::default();
@@ -215,7 +215,7 @@ pub fn draw_split<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromRefer
 
 /// All lines of a picture, with the owners of its pixels.
 pub fn read<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(
-    lines: &mut Lines<'_, ACTIVE, S, LIGHTS, L>,
+    lines: &mut Lines<'_, '_, ACTIVE, S, LIGHTS, L>,
 ) -> Picture<P> {
     let size = lines.viewport().size;
     let mut picture = Picture::blank(size.width as usize, size.height as usize, P::plain(Color::BLACK));

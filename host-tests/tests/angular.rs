@@ -334,7 +334,7 @@ fn any_quadrilateral_can_be_lit() {
 
 #[test]
 fn any_triangle_can_be_lit_from_within_the_scene() {
-    fn draw<S: Shade<1, SceneLight>>(picture: beamshade::Picture<'_, 1, SceneLight>) {
+    fn draw<S: Shade<1, SceneLight>>(picture: beamshade::Picture<'_, '_, 1, SceneLight>) {
         let mut scanner = Box::<Scanner<64, S, 1, SceneLight>>::default();
         let mut lines = scanner.start(picture);
         let _ = (0..64).map(|y| lines.line(y, &mut [Rgb888::default(); 64])).last();

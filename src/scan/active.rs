@@ -25,12 +25,12 @@ pub struct Active {
     lower: [u16; 2],
     /// The next free slot, if this one is free.
     pub(crate) next: u16,
+    /// The number of its facet, from 1 on; 0 before it is set up.
+    pub(crate) facet: u16,
     /// Whether the middle corner is on the left.
     middle_left: bool,
     /// Whether `depth` is there.
     pub(crate) deep: bool,
-    /// Whether its facet is set up.
-    pub(crate) shaded: bool,
 }
 
 /// Bits of a depth below those of a nearness.
@@ -49,9 +49,9 @@ impl Active {
         id: TriangleId(0),
         lower: [0; 2],
         next: 0,
+        facet: 0,
         middle_left: false,
         deep: false,
-        shaded: false,
     };
 
     /// Becomes a triangle on line `line`, on which or above which it must start. Returns the number of its material; none if it
@@ -61,7 +61,7 @@ impl Active {
         &mut self,
         id: TriangleId,
         line: u16,
-        geometry: &Geometry<'_, LIGHTS>,
+        geometry: &Geometry<'_, '_, LIGHTS>,
     ) -> Option<u16> {
         let numbers = geometry.numbers(id)?;
         let look = numbers.look();
@@ -88,7 +88,7 @@ impl Active {
         let (from, to) = if above { (top, middle) } else { (middle, bottom) };
         bent.set(from, to, start);
         straight.set(top, bottom, start);
-        (self.deep, self.shaded) = (false, false);
+        (self.deep, self.facet) = (false, 0);
         Some(look)
     }
 
@@ -149,7 +149,7 @@ impl Active {
     /// Makes `depth` ready.
     #[cold]
     #[inline(never)]
-    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, geometry: &Geometry<'_, LIGHTS>) {
+    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, geometry: &Geometry<'_, '_, LIGHTS>) {
         let Some(corners) = geometry.corners(self.id) else { return };
         let points = corners.map(Vertex::point);
         let [w0, w1, w2] = corners.map(|corner| corner.nearness() as i32);

@@ -47,17 +47,17 @@ pub struct Made {
 /// What of a frame is seen by the scan: projected vertices, the triangles that face the eye by the line on which they start,
 /// and where these come from. A view: copying it copies no data.
 #[derive(Clone, Copy, Debug)]
-pub struct Geometry<'f, const LIGHTS: usize = 1> {
+pub struct Geometry<'f, 'm, const LIGHTS: usize = 1> {
     pub(crate) viewport: Rectangle,
     pub(crate) vertices: &'f [Vertex<LIGHTS>],
     /// For each line, one more than the place of the first of the kept triangles that start there, or 0.
     pub(crate) heads: &'f [u16],
     pub(crate) kept: &'f [Kept],
-    pub(crate) objects: &'f [Object<'f>],
+    pub(crate) objects: &'f [Object<'m>],
     pub(crate) made: &'f [Made],
 }
 
-impl<'f, const LIGHTS: usize> Geometry<'f, LIGHTS> {
+impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
     pub(crate) fn width(&self) -> i32 {
         self.viewport.size.width as i32
     }
@@ -78,7 +78,7 @@ impl<'f, const LIGHTS: usize> Geometry<'f, LIGHTS> {
 
     /// The object of a mesh's triangle, and the number of the triangle in the mesh.
     #[inline]
-    pub(crate) fn object(&self, whole: TriangleId) -> Option<(&'f Object<'f>, u16)> {
+    pub(crate) fn object(&self, whole: TriangleId) -> Option<(&'f Object<'m>, u16)> {
         let object = match self.objects {
             [only] => only,
             many => many.iter().rev().find(|object| object.first_triangle <= whole.0)?,
@@ -94,7 +94,7 @@ impl<'f, const LIGHTS: usize> Geometry<'f, LIGHTS> {
 
     /// The material with that number among those of all objects.
     #[inline]
-    pub(crate) fn material(&self, look: u16) -> Option<&'f Material> {
+    pub(crate) fn material(&self, look: u16) -> Option<&'m Material> {
         let object = self.objects.iter().rev().find(|object| object.first_material <= look)?;
         object.mesh.data().materials.get(usize::from(look - object.first_material))
     }

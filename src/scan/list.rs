@@ -52,7 +52,7 @@ impl<const N: usize> ActiveList<N> {
     /// On to line `line`, the next one: steps all, lets go of those that ended, takes in those that start. Returns the number
     /// of triangles left out for want of room.
     #[inline(never)]
-    pub(crate) fn advance<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, L>) -> u16 {
+    pub(crate) fn advance<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, '_, L>) -> u16 {
         let free = self.free;
         self.step(line.into(), geometry.vertices);
         if self.free == free {
@@ -124,7 +124,7 @@ impl<const N: usize> ActiveList<N> {
     /// Takes in the triangles that start on line `line`. Returns the number of those left out.
     ///
     /// A few at a time, put in order first, so that each of the others moves once.
-    pub(crate) fn enter<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, L>) -> u16 {
+    pub(crate) fn enter<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, '_, L>) -> u16 {
         let mut dropped = 0;
         let mut new = Vec::new();
         for id in geometry.starting(line) {
@@ -185,7 +185,7 @@ impl<const N: usize> ActiveList<N> {
     /// number; none if it is this one. What is left out thus depends on the picture alone.
     #[cold]
     #[inline(never)]
-    fn farther_than<const L: usize>(&self, id: TriangleId, geometry: &Geometry<'_, L>) -> Option<usize> {
+    fn farther_than<const L: usize>(&self, id: TriangleId, geometry: &Geometry<'_, '_, L>) -> Option<usize> {
         let rank = |id: TriangleId| {
             let nearest = geometry.corners(id).and_then(|corners| corners.iter().map(|corner| corner.nearness()).max());
             (nearest.unwrap_or(0), core::cmp::Reverse(id))

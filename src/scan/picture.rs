@@ -24,10 +24,23 @@ pub enum Background {
     Keep,
 }
 
-/// A finished frame: where its triangles are, and the lights on them. A view: copying it copies no data.
+impl Background {
+    /// Its colour on line y of so many; none if pixels stay what they were.
+    #[inline(always)]
+    pub(crate) fn at(self, y: u16, height: u16) -> Option<Color> {
+        match self {
+            Self::Plain(color) => Some(color),
+            Self::Gradient { top, bottom } => Some(between(top, bottom, y, height)),
+            Self::Keep => None,
+        }
+    }
+}
+
+/// A finished frame: where its triangles are, and the lights on them. A view of the frame, `'f`, and of its meshes, `'m`: copying it
+/// copies no data.
 #[derive(Clone, Copy, Debug)]
-pub struct Picture<'f, const LIGHTS: usize = 1, L: LightSource = Light> {
-    pub(crate) geometry: Geometry<'f, LIGHTS>,
+pub struct Picture<'f, 'm, const LIGHTS: usize = 1, L: LightSource = Light> {
+    pub(crate) geometry: Geometry<'f, 'm, LIGHTS>,
     pub(crate) background: Background,
     /// Of the lights, Q15.
     pub(crate) intensities: &'f [u16; LIGHTS],
@@ -35,7 +48,7 @@ pub struct Picture<'f, const LIGHTS: usize = 1, L: LightSource = Light> {
     pub(crate) aims: &'f [[L::Aim; LIGHTS]],
 }
 
-impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, LIGHTS, L> {
+impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
     /// Where the picture lies on the panel, and its size.
     #[must_use]
     pub const fn viewport(&self) -> Rectangle {
@@ -62,4 +75,15 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, LIGHTS, L> {
         let corners = [vertex(a)?, vertex(b)?, vertex(c)?];
         Some(Triangle { corners, edges: numbers.edges, aims, numbers, nearness, turned: false })
     }
+}
+
+/// The colour of a gradient on line y.
+fn between(top: Color, bottom: Color, y: u16, height: u16) -> Color {
+    let steps = u32::from(height.saturating_sub(1)).max(1);
+    let (y, rest) = (u32::from(y), steps - u32::from(y).min(steps));
+    let mut color = top;
+    for (to, from) in color.0.iter_mut().zip(bottom.0) {
+        *to = ((u32::from(*to) * rest + u32::from(from) * y + steps / 2).checked_div(steps).unwrap_or(0)) as u16;
+    }
+    color
 }

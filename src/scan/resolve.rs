@@ -41,7 +41,7 @@ impl<const N: usize> Sweep<N> {
     pub(crate) fn run<const L: usize>(
         mut self,
         list: &mut ActiveList<N>,
-        geometry: &Geometry<'_, L>,
+        geometry: &Geometry<'_, '_, L>,
         table: &mut Table<N>,
         mut see: impl FnMut(&[Span], &mut [Active; N]),
     ) {
@@ -99,7 +99,7 @@ impl<const N: usize> Sweep<N> {
         &mut self,
         extents: &[Span],
         slots: &mut [Active; N],
-        geometry: &Geometry<'_, L>,
+        geometry: &Geometry<'_, '_, L>,
         table: &mut Table<N>,
     ) {
         let Self { width, mut x, mut next, .. } = *self;
@@ -190,7 +190,7 @@ impl<const N: usize> Sweep<N> {
         x: i32,
         extents: &[Span],
         slots: &mut [Active; N],
-        geometry: &Geometry<'_, L>,
+        geometry: &Geometry<'_, '_, L>,
     ) -> (i32, i32) {
         let mut front = Open::NONE;
         while let Some(other) = self.open.pop().and_then(|place| Open::new(place.into(), extents, slots)) {
@@ -240,7 +240,7 @@ impl<const N: usize> Sweep<N> {
         x: i32,
         extents: &[Span],
         slots: &mut [Active; N],
-        geometry: &Geometry<'_, L>,
+        geometry: &Geometry<'_, '_, L>,
     ) -> (bool, i32) {
         const NEVER: (bool, i32) = (false, i32::MAX);
         let (Some(other), Some(front)) = (extents.get(other), extents.get(front)) else { return NEVER };
@@ -299,6 +299,6 @@ impl Open {
 /// Whether `other` is in front where both are equally near.
 #[cold]
 #[inline(never)]
-fn wins<const L: usize>(other: TriangleId, front: TriangleId, geometry: &Geometry<'_, L>) -> bool {
+fn wins<const L: usize>(other: TriangleId, front: TriangleId, geometry: &Geometry<'_, '_, L>) -> bool {
     (geometry.whole(other), other) <= (geometry.whole(front), front)
 }

@@ -4,3 +4,4 @@ pub mod draw;
 pub mod ink;
 pub mod overlay;
 pub mod palette;
+pub(crate) mod row;

@@ -49,7 +49,7 @@ impl Paint<Made> for () {
 
 /// The spans of a line.
 fn spans<S: Shade<LIGHTS>, const ACTIVE: usize, const LIGHTS: usize>(
-    lines: &mut Lines<'_, ACTIVE, S, LIGHTS>,
+    lines: &mut Lines<'_, '_, ACTIVE, S, LIGHTS>,
     y: u16,
 ) -> Vec<Range<usize>> {
     let mut spans = Vec::new();
@@ -63,7 +63,7 @@ fn same_in_any_order<S: Shade<1>, const ACTIVE: usize>(scene: &Scene, order: &[I
         let mut scanner = Box::<Scanner<ACTIVE, S>>::default();
         let mut lines = scanner.start(picture);
         let size = picture.viewport().size;
-        let draw = |lines: &mut Lines<'_, ACTIVE, S>, y| {
+        let draw = |lines: &mut Lines<'_, '_, ACTIVE, S>, y| {
             let mut row = vec![Rgb565::new(1, 2, 3); size.width as usize];
             let Line { active, spans, dropped, .. } = lines.line(y, &mut row);
             (row, active, spans, dropped)

@@ -10,6 +10,7 @@ mod phong;
 mod scene;
 mod sinks;
 mod split;
+mod tables;
 mod total;
 mod visibility;
 

@@ -33,7 +33,7 @@ impl Paint<Lit> for () {
 
 /// The light of each pixel, with whose triangle it shows.
 fn draw<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
-    picture: Picture<'_, LIGHTS, L>,
+    picture: Picture<'_, '_, LIGHTS, L>,
 ) -> Vec<(Lit, Option<(u16, u16)>)> {
     let mut scanner = Box::<Scanner<256, S, LIGHTS, L>>::default();
     let mut lines = scanner.start(picture);
@@ -57,7 +57,7 @@ fn draw<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
 fn show<T, const LIGHTS: usize>(
     scene: &Scene<LIGHTS>,
     lights: &[SceneLight; LIGHTS],
-    see: impl FnOnce(Picture<'_, LIGHTS, SceneLight>) -> T,
+    see: impl FnOnce(Picture<'_, '_, LIGHTS, SceneLight>) -> T,
 ) -> T {
     let meshes = scene.meshes();
     let mut frame = Box::<Frame<'_, 2048, 1024, 1024, LIGHTS, 8, 1024, SceneLight>>::default();

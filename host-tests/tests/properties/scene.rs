@@ -190,12 +190,16 @@ impl<const LIGHTS: usize> Scene<LIGHTS> {
     }
 
     /// Shows the scene's picture, from a frame with room for everything.
-    pub(crate) fn show<T>(&self, see: impl FnOnce(Picture<'_, LIGHTS>) -> T) -> T {
+    pub(crate) fn show<T>(&self, see: impl FnOnce(Picture<'_, '_, LIGHTS>) -> T) -> T {
         self.show_under(&self.lights, see)
     }
 
     /// The same under other lights.
-    pub(crate) fn show_under<T, S: LightSource>(&self, lights: &[S; LIGHTS], see: impl FnOnce(Picture<'_, LIGHTS, S>) -> T) -> T {
+    pub(crate) fn show_under<T, S: LightSource>(
+        &self,
+        lights: &[S; LIGHTS],
+        see: impl FnOnce(Picture<'_, '_, LIGHTS, S>) -> T,
+    ) -> T {
         let meshes = self.meshes();
         let mut frame = Box::<Frame<'_, 2048, 1024, 1024, LIGHTS, 8, 1024, S>>::default();
         for result in self.fill_under(lights, &meshes, &mut frame) {

@@ -15,7 +15,7 @@ use crate::cases;
 use crate::scene::{scenes, Scene, Shape};
 
 /// Draws all lines of a picture.
-fn draw<S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(picture: Picture<'_, LIGHTS, L>) {
+fn draw<S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(picture: Picture<'_, '_, LIGHTS, L>) {
     let mut scanner = Box::<Scanner<ACTIVE, S, LIGHTS, L>>::default();
     let mut lines = scanner.start(picture);
     let mut dropped = 0;
@@ -36,7 +36,7 @@ fn draw_all<const LIGHTS: usize>(scene: &Scene<LIGHTS>) {
             }
         };
     }
-    let by_each: fn(Picture<'_, LIGHTS>, Picture<'_, LIGHTS, SceneLight>) = every_method!(draw_by_each);
+    let by_each: fn(Picture<'_, '_, LIGHTS>, Picture<'_, '_, LIGHTS, SceneLight>) = every_method!(draw_by_each);
     let place = [[0.0; 3], [f32::MAX, -1.0, f32::NAN], [0.5, 1.0, -2.0]][scene.objects.len() % 3];
     scene.show(|picture| scene.show_under(&[SceneLight::point(place); LIGHTS], |lit| by_each(picture, lit)));
     let meshes = scene.meshes();

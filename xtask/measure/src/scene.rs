@@ -183,7 +183,7 @@ impl Scene {
     }
 
     /// The lines of the frame that was prepared, and a row for them.
-    pub fn lines(&mut self) -> (Lines<'_, { ACTIVE + MADE / 16 }, Shading, LIGHTS, Source>, &mut Row) {
+    pub fn lines(&mut self) -> (Lines<'_, '_, { ACTIVE + MADE / 16 }, Shading, LIGHTS, Source>, &mut Row) {
         (self.scanner.start(self.frame.picture()), &mut self.row)
     }
 }

@@ -39,7 +39,7 @@ impl<'m, S: Shade<1>> Turntable<'m, S> {
     }
 
     /// The lines of the picture at that angle.
-    pub(super) fn lines(&mut self, angle: Turn) -> Result<Lines<'_, ACTIVE, S>> {
+    pub(super) fn lines(&mut self, angle: Turn) -> Result<Lines<'_, '_, ACTIVE, S>> {
         let pose = Pose::turned(Rotation::x(Turn::degrees(25)) * Rotation::y(angle));
         self.frame.begin(&self.camera, &[self.light])?;
         self.frame.add(self.mesh, &pose)?;

@@ -1,0 +1,128 @@
+//! One line's span table, ready to be shaded anywhere.
+
+use core::ops::Range;
+
+use heapless::Vec;
+
+use crate::{
+    model::{
+        light::{Light, LightSource},
+        material::{Color, Material},
+    },
+    scanner::{Line, Lines, Take},
+    shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
+    sink::{ink::Ink, row::Row},
+};
+
+/// Up to `SPANS` spans of one line, each with the registers that shading starts from.
+///
+/// It borrows nothing but meshes, `'m`: neither the frame, in which the next picture may be made meanwhile, nor the scanner.
+/// As `&'static mut` it moves through a [`heapless::spsc`] queue to the other core or to an interrupt; a ring of several lets dear
+/// lines borrow time from cheap ones. Takes 12 bytes and the registers for each span: about 40 with the default method and one
+/// light.
+#[derive(Clone, Debug)]
+pub struct Baked<'m, const SPANS: usize, S: Shade<LIGHTS, L> = DuffBarycentric, const LIGHTS: usize = 1, L: LightSource = Light> {
+    spans: Vec<Span<'m, S::Registers>, SPANS>,
+    y: u16,
+    width: u16,
+    background: Option<Color>,
+    intensities: [u16; LIGHTS],
+    counts: Line,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Span<'m, R> {
+    start: u16,
+    end: u16,
+    material: &'m Material,
+    registers: R,
+}
+
+impl<const SPANS: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Baked<'_, SPANS, S, LIGHTS, L> {
+    /// An empty line of no pixels.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { spans: Vec::new(), y: 0, width: 0, background: None, intensities: [0; LIGHTS], counts: Line::NONE }
+    }
+
+    /// The line that was baked into it.
+    #[must_use]
+    pub const fn y(&self) -> u16 {
+        self.y
+    }
+
+    /// What that line is made of.
+    #[must_use]
+    pub const fn counts(&self) -> Line {
+        self.counts
+    }
+
+    /// Shades the line into the row, as [`Lines::line`] does: every pixel stored once, from left to right.
+    pub fn shade<P: Ink>(&self, row: &mut [P]) {
+        let width = usize::from(self.width).min(row.len());
+        let mut row = Row::new(row.get_mut(..width).unwrap_or_default(), self.background);
+        let mut dressed = None;
+        for span in &self.spans {
+            let end = usize::from(span.end).min(width);
+            let start = usize::from(span.start).min(end);
+            let paint = match &dressed {
+                Some((material, paint)) if core::ptr::eq::<Material>(*material, span.material) => paint,
+                _ => &dressed.insert((span.material, P::paint(span.material))).1,
+            };
+            let surface = Surface { material: span.material, intensities: &self.intensities };
+            S::run(span.registers, &surface, row.span(start, end), paint);
+        }
+        row.finish();
+    }
+}
+
+impl<const SPANS: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Default for Baked<'_, SPANS, S, LIGHTS, L> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'m, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, 'm, ACTIVE, S, LIGHTS, L> {
+    /// Bakes line y: all but the shading of [`line`](Lines::line), which [`Baked::shade`] does later. A y below the picture makes
+    /// an empty line of no pixels.
+    #[inline(never)]
+    pub fn bake<const SPANS: usize>(&mut self, y: u16, table: &mut Baked<'m, SPANS, S, LIGHTS, L>) -> Line {
+        table.spans.clear();
+        table.y = y;
+        let is_there = self.seek(y);
+        table.width = if is_there { self.width() as u16 } else { 0 };
+        table.background = self.background(y);
+        table.intensities = *self.picture().intensities;
+        table.counts = match self.first_material() {
+            Some(material) if is_there => {
+                let baking = Baking { spans: &mut table.spans, material, y: y.into(), left_out: 0 };
+                let (line, Baking { left_out, .. }) = self.walk(y, self.width(), material, baking);
+                Line { spans: line.spans - left_out, left_out, ..line }
+            }
+            _ => self.none(),
+        };
+        table.counts
+    }
+}
+
+/// Spans on their way into a table.
+struct Baking<'t, 'm, R, const SPANS: usize> {
+    spans: &'t mut Vec<Span<'m, R>, SPANS>,
+    material: &'m Material,
+    y: i32,
+    left_out: u16,
+}
+
+impl<'m, S: Shade<LIGHTS, L>, const SPANS: usize, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
+    for Baking<'_, 'm, S::Registers, SPANS>
+{
+    fn dress(&mut self, material: &'m Material) {
+        self.material = material;
+    }
+
+    fn span(&mut self, Range { start, end }: Range<usize>, facet: &S::Facet, _: u16) {
+        let registers = S::start(facet, start as i32, self.y);
+        let span = Span { start: start as u16, end: end as u16, material: self.material, registers };
+        self.left_out += u16::from(self.spans.push(span).is_err());
+    }
+}

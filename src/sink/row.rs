@@ -1,0 +1,57 @@
+//! A row of pixels on its way to be stored.
+
+use super::ink::Ink;
+use crate::model::material::Color;
+
+/// The pixels of a line, stored once each, from left to right: spans by whoever shades them, the background between.
+#[derive(Debug)]
+pub(crate) struct Row<'r, P> {
+    pixels: &'r mut [P],
+    /// The first pixel that is not stored.
+    from: usize,
+    /// None keeps what the row held.
+    background: Option<Color>,
+}
+
+impl<'r, P: Ink> Row<'r, P> {
+    pub(crate) const fn new(pixels: &'r mut [P], background: Option<Color>) -> Self {
+        Self { pixels, from: 0, background }
+    }
+
+    /// The pixels of a span that lies right of all before it, to be stored now; the background up to it is.
+    #[inline(always)]
+    pub(crate) fn span(&mut self, start: usize, end: usize) -> &mut [P] {
+        if self.from < start {
+            self.fill(start);
+        }
+        self.from = end;
+        self.pixels.get_mut(start..end).unwrap_or_default()
+    }
+
+    /// Stores what is left.
+    #[inline(always)]
+    pub(crate) fn finish(mut self) {
+        if self.from < self.pixels.len() {
+            self.fill(self.pixels.len());
+        }
+    }
+
+    /// Fills pixels up to there with the background.
+    #[inline(always)]
+    fn fill(&mut self, to: usize) {
+        if let (Some(color), Some(pixels)) = (self.background, self.pixels.get_mut(self.from..to)) {
+            fill(pixels, color);
+        }
+    }
+}
+
+/// Fills pixels with the background.
+#[inline(never)]
+fn fill<P: Ink>(pixels: &mut [P], color: Color) {
+    let pixel = P::plain(color);
+    let mut eights = pixels.chunks_exact_mut(8);
+    for eight in &mut eights {
+        eight.fill(pixel);
+    }
+    eights.into_remainder().fill(pixel);
+}
