@@ -108,7 +108,7 @@ pub(crate) fn run(wanted: &[String]) -> Result<()> {
 /// # Errors
 /// As [`run`].
 pub(crate) fn text(wanted: &[String]) -> Result<String> {
-    let lengths = lengths()?;
+    let lengths = lengths("t880-parts", "flat")?;
     let mut text = String::new();
     for (target, unit) in TARGETS.iter().zip(["cycles, Cortex-M0+", "instructions, Cortex-M4F"]) {
         let methods = METHODS.iter().filter(|method| wanted.is_empty() || wanted.iter().any(|name| name == method.name));
@@ -127,9 +127,9 @@ pub(crate) fn text(wanted: &[String]) -> Result<String> {
     Ok(text)
 }
 
-/// Pixels of each span of the scene, in order.
-fn lengths() -> Result<Vec<u64>> {
-    let said = cycles::on_this_machine("t880-parts", "flat")?;
+/// Pixels of each span of a scene, in order.
+fn lengths(scene: &str, method: &str) -> Result<Vec<u64>> {
+    let said = cycles::on_this_machine(scene, method)?;
     said.lines().filter_map(|line| line.strip_prefix("run ")).map(|length| Ok(length.parse()?)).collect()
 }
 
@@ -138,6 +138,11 @@ fn measure(target: &'static Target, method: &'static str, lengths: &[u64]) -> Re
     let counts = |scene: &str| -> Result<Counts> {
         let elf = firmware::build(MEASURE, target.triple, &["firmware", scene, method])?;
         Ok(count::run(target, &elf)?.1)
+    };
+    let parts = |scene: &str| {
+        // Spans are the same whatever shades them, unless triangles are split.
+        let own = method.ends_with("-split").then(|| self::lengths(scene, method)).transpose()?;
+        Cost::measured(&counts(scene)?.parts, own.as_deref().unwrap_or(lengths), of).with_context(|| format!("{scene}, {method}"))
     };
     let whole = Measured::new(target, SCENE, method)?;
     // Every fifth frame of T880 is one of the twelve of the other scenes.
@@ -151,8 +156,8 @@ fn measure(target: &'static Target, method: &'static str, lengths: &[u64]) -> Re
     Ok(Row {
         method,
         frame: of(&whole.counts.mean()),
-        constant: Cost::measured(&counts("t880-parts")?.parts, lengths, of)?,
-        varying: Cost::measured(&counts("t880-point-parts")?.parts, lengths, of).context(method)?,
+        constant: parts("t880-parts")?,
+        varying: parts("t880-point-parts")?,
         light: (four - one) / 3.0,
         point,
         code_bytes: whole.code_bytes(),
