@@ -9,6 +9,7 @@ use crate::{
         light::{Light, LightSource},
         material::{Color, Material},
     },
+    scan::{active::Active, table::Span},
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{ink::Ink, row::Row},
@@ -22,7 +23,7 @@ use crate::{
 /// light.
 #[derive(Clone, Debug)]
 pub struct Baked<'m, const SPANS: usize, S: Shade<LIGHTS, L> = DuffBarycentric, const LIGHTS: usize = 1, L: LightSource = Light> {
-    spans: Vec<Span<'m, S::Registers>, SPANS>,
+    spans: Vec<Prepared<'m, S::Registers>, SPANS>,
     y: u16,
     width: u16,
     background: Option<Color>,
@@ -31,7 +32,7 @@ pub struct Baked<'m, const SPANS: usize, S: Shade<LIGHTS, L> = DuffBarycentric, 
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Span<'m, R> {
+struct Prepared<'m, R> {
     start: u16,
     end: u16,
     material: &'m Material,
@@ -107,7 +108,7 @@ impl<'m, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: Light
 
 /// Spans on their way into a table.
 struct Baking<'t, 'm, R, const SPANS: usize> {
-    spans: &'t mut Vec<Span<'m, R>, SPANS>,
+    spans: &'t mut Vec<Prepared<'m, R>, SPANS>,
     material: &'m Material,
     y: i32,
     left_out: u16,
@@ -120,9 +121,10 @@ impl<'m, S: Shade<LIGHTS, L>, const SPANS: usize, const LIGHTS: usize, L: LightS
         self.material = material;
     }
 
-    fn span(&mut self, Range { start, end }: Range<usize>, facet: &S::Facet, _: u16) {
+    fn span(&mut self, span: Span, facet: &S::Facet, _: &Active) {
+        let Range { start, end } = span.range();
         let registers = S::start(facet, start as i32, self.y);
-        let span = Span { start: start as u16, end: end as u16, material: self.material, registers };
+        let span = Prepared { start: start as u16, end: end as u16, material: self.material, registers };
         self.left_out += u16::from(self.spans.push(span).is_err());
     }
 }

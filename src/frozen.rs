@@ -10,9 +10,11 @@ use crate::{
         material::Material,
     },
     scan::{
+        active::Active,
         bucket::TriangleId,
         geometry::Source,
         picture::{Background, Picture},
+        table::Span,
     },
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
@@ -35,7 +37,7 @@ pub struct Frozen<
     const LIGHTS: usize = 1,
     L: LightSource = Light,
 > {
-    spans: Vec<Span, SPANS>,
+    spans: Vec<Piece, SPANS>,
     facets: Vec<Facet<'m, S::Facet>, FACETS>,
     /// For each line the number of spans on it and above.
     ends: Vec<u16, LINES>,
@@ -46,7 +48,7 @@ pub struct Frozen<
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Span {
+struct Piece {
     start: u16,
     end: u16,
     facet: u16,
@@ -156,7 +158,7 @@ impl<
     }
 
     /// The spans of a line.
-    fn spans(&self, y: u16) -> Option<&[Span]> {
+    fn spans(&self, y: u16) -> Option<&[Piece]> {
         let y = usize::from(y);
         let end = usize::from(*self.ends.get(y)?);
         let start = y.checked_sub(1).and_then(|above| self.ends.get(above)).copied().unwrap_or(0);
@@ -174,7 +176,7 @@ impl<const SPANS: usize, const FACETS: usize, const LINES: usize, S: Shade<LIGHT
 
 /// Spans and facets on their way into a frozen picture.
 struct Freezing<'t, 'f, 'm, F, const SPANS: usize, const FACETS: usize, const LIGHTS: usize, L: LightSource> {
-    spans: &'t mut Vec<Span, SPANS>,
+    spans: &'t mut Vec<Piece, SPANS>,
     facets: &'t mut Vec<Facet<'m, F>, FACETS>,
     picture: &'t Picture<'f, 'm, LIGHTS, L>,
     material: &'m Material,
@@ -197,8 +199,10 @@ impl<'m, S: Shade<LIGHTS, L>, const SPANS: usize, const FACETS: usize, const LIG
         }
     }
 
-    fn span(&mut self, Range { start, end }: Range<usize>, _: &S::Facet, number: u16) {
-        let span = Span { start: start as u16, end: end as u16, facet: number - 1 };
+    fn span(&mut self, span: Span, _: &S::Facet, active: &Active) {
+        let Range { start, end } = span.range();
+        let number = active.facet;
+        let span = Piece { start: start as u16, end: end as u16, facet: number - 1 };
         let fits = number != NO_ROOM && self.spans.len() < usize::from(u16::MAX) && self.spans.push(span).is_ok();
         self.left_out += u16::from(!fits);
     }

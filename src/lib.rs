@@ -76,6 +76,7 @@ pub mod scan;
 pub mod scanner;
 pub mod shade;
 pub mod sink;
+pub(crate) mod smooth;
 pub mod split;
 
 pub use baked::Baked;

@@ -143,6 +143,11 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         });
     }
 
+    /// The triangles that cross the line, and the facets of those that are seen, by their slots.
+    pub(crate) const fn scene(&self) -> (&ActiveList<ACTIVE>, &[S::Facet; ACTIVE]) {
+        (&self.scanner.list, &self.scanner.facets)
+    }
+
     /// The picture.
     pub(crate) const fn picture(&self) -> &Picture<'s, 'm, LIGHTS, L> {
         &self.picture
@@ -219,8 +224,8 @@ pub(crate) trait Take<'m, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
         1
     }
 
-    /// A span, which is not empty, of the facet with that number.
-    fn span(&mut self, pixels: Range<usize>, facet: &S::Facet, number: u16);
+    /// A span, which is not empty, of a triangle with that facet.
+    fn span(&mut self, span: Span, facet: &S::Facet, active: &Active);
 }
 
 /// Spans on their way to whoever takes them.
@@ -245,8 +250,8 @@ impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, co
     fn see(&mut self, spans: &[Span], slots: &mut [Active; ACTIVE]) {
         self.spans += spans.len() as u16;
         for span in spans {
-            let pixels = span.range();
-            if pixels.start >= pixels.end {
+            let Range { start, end } = span.range();
+            if start >= end {
                 self.skip();
                 continue;
             }
@@ -261,7 +266,7 @@ impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, co
                 self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, active, &surface, facet));
                 active.facet = self.to.keep(facet, active.id);
             }
-            self.to.span(pixels, facet, active.facet);
+            self.to.span(*span, facet, active);
         }
     }
 
@@ -307,7 +312,8 @@ impl<'m: 'a, 'a, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSourc
     }
 
     #[inline(always)]
-    fn span(&mut self, Range { start, end }: Range<usize>, facet: &S::Facet, _: u16) {
+    fn span(&mut self, span: Span, facet: &S::Facet, _: &Active) {
+        let Range { start, end } = span.range();
         shade::<P, S, LIGHTS, L>(&self.dressed, facet, start as i32, self.row.span(start, end));
     }
 }

@@ -20,6 +20,15 @@ impl Color {
         Self([factor(red), factor(green), factor(blue)])
     }
 
+    /// A colour between this one and another, 256 for the other.
+    #[must_use]
+    pub(crate) fn mixed(mut self, Color(other): Self, share: i32) -> Self {
+        for (channel, other) in self.0.iter_mut().zip(other) {
+            *channel = ((i32::from(*channel) * (256 - share) + i32::from(other) * share + 128) >> 8) as u16;
+        }
+        self
+    }
+
     /// How bright it is, (77 R + 150 G + 29 B) / 256, Q15.
     #[must_use]
     pub const fn luma(self) -> u16 {

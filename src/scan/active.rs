@@ -140,6 +140,11 @@ impl Active {
         (self.left.x(), self.right.x())
     }
 
+    /// Its left and its right edge.
+    pub(crate) const fn sides(&self) -> [&Edge; 2] {
+        [&self.left, &self.right]
+    }
+
     /// The least and the largest nearness of all of it.
     #[inline(always)]
     pub(crate) fn reach(&self) -> [i32; 2] {

@@ -61,6 +61,17 @@ impl Edge {
         (self.at >> 48) as i16
     }
 
+    /// Where it meets the line's centre, from the left side of pixel 0, and its increase a line; both in subpixels.
+    pub(crate) const fn on_line(&self) -> [i32; 2] {
+        [((self.at >> 40) as i32).wrapping_sub(SUBPIXELS / 2), (self.step >> 40) as i32]
+    }
+
+    /// Whether it is the other one on this line, as far as the grid can tell.
+    pub(crate) const fn is_near(&self, other: &Self) -> bool {
+        let ([x, step], [other_x, other_step]) = (self.on_line(), other.on_line());
+        x.abs_diff(other_x) <= 1 && step.abs_diff(other_step) <= 1
+    }
+
     /// On to the next line.
     #[inline(always)]
     pub fn step(&mut self) {

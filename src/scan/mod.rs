@@ -7,6 +7,7 @@ pub mod geometry;
 pub mod list;
 pub mod picture;
 pub mod resolve;
+pub(crate) mod silhouette;
 pub mod table;
 pub mod triangle;
 pub mod vertex;

@@ -120,6 +120,27 @@ impl Paint<Rgb888> for Rgb<8, 8, 8> {
     }
 }
 
+/// A pixel that is yet to be blended with another one.
+impl Ink for Color {
+    type Paint<'m> = Rgb<15, 15, 15>;
+
+    fn paint(material: &Material) -> Self::Paint<'_> {
+        Rgb::new(material)
+    }
+
+    fn plain(color: Color) -> Self {
+        color
+    }
+}
+
+impl Paint<Color> for Rgb<15, 15, 15> {
+    #[inline]
+    fn mix(&self, intensity: Intensity) -> Color {
+        // One is 2¹⁵, the largest level one less.
+        Color(self.levels_of(intensity).map(|level| (level + (level >> 14)) as u16))
+    }
+}
+
 /// The bits above red, green and blue in a sum of light, see [`Material::SPREAD`].
 const ABOVE: u32 = 1 << 31 | 1 << 20 | 1 << 9;
 /// Their levels, without the four bits below.

@@ -26,6 +26,17 @@ fn draw<S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightS
     }
 }
 
+/// Draws all lines of a picture with smooth silhouettes.
+fn draw_smooth<const ACTIVE: usize, const LIGHTS: usize>(picture: Picture<'_, '_, LIGHTS>) {
+    let mut scanner = Box::<Scanner<ACTIVE, DuffBarycentric, LIGHTS>>::default();
+    let mut lines = scanner.start(picture);
+    for y in 0..picture.viewport().size.height as u16 {
+        let mut row = [Rgb565::new(0, 0, 0); 1024];
+        let (smooth, plain) = (lines.smooth_line(y, &mut row), lines.line(y, &mut row));
+        assert_eq!((smooth.active, smooth.spans, smooth.dropped), (plain.active, plain.spans, plain.dropped));
+    }
+}
+
 /// Draws a scene with room for all of it, and with next to none, by each method.
 fn draw_all<const LIGHTS: usize>(scene: &Scene<LIGHTS>) {
     macro_rules! draw_by_each {
@@ -39,12 +50,14 @@ fn draw_all<const LIGHTS: usize>(scene: &Scene<LIGHTS>) {
     let by_each: fn(Picture<'_, '_, LIGHTS>, Picture<'_, '_, LIGHTS, SceneLight>) = every_method!(draw_by_each);
     let place = [[0.0; 3], [f32::MAX, -1.0, f32::NAN], [0.5, 1.0, -2.0]][scene.objects.len() % 3];
     scene.show(|picture| scene.show_under(&[SceneLight::point(place); LIGHTS], |lit| by_each(picture, lit)));
+    scene.show(draw_smooth::<256, LIGHTS>);
     let meshes = scene.meshes();
     let mut small = Frame::<'_, 30, 20, 100, LIGHTS, 2, 6>::new();
     scene.fill(&meshes, &mut small);
     draw::<Choose<DuffBarycentric, Choose<Gouraud, Flat>>, 5, LIGHTS, Light>(small.picture());
     draw::<DuffBarycentric, 1, LIGHTS, Light>(small.picture());
     draw::<Flat, 0, LIGHTS, Light>(small.picture());
+    draw_smooth::<5, LIGHTS>(small.picture());
 }
 
 /// Normals twice as long as they should be, and edge constants that say they have no length in the middle.

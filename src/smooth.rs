@@ -1,0 +1,243 @@
+//! Lines with anti-aliased silhouettes.
+
+use core::ops::Range;
+
+use heapless::Vec;
+
+use crate::{
+    model::{
+        light::LightSource,
+        material::{Color, Material},
+    },
+    scan::{active::Active, edge::Edge, list::ActiveList, picture::Picture, silhouette::Silhouette, table::Span},
+    scanner::{Line, Lines, Take},
+    shade::{Shade, Surface},
+    sink::{ink::Ink, row::Row},
+};
+
+/// Edges that are smoothed on one line; those right of them stay as they are.
+const EDGES: usize = 24;
+
+/// Pixels blended at once.
+const PIECE: usize = 8;
+
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, '_, ACTIVE, S, LIGHTS, L> {
+    /// As [`line`](Lines::line), with the edges that end a surface blended with what is seen behind them, by the area of the pixel
+    /// that they leave (*Faster Phong Shading*, §3.6). An edge between two triangles of one surface stays as it is, and so does
+    /// the line where surfaces cut each other.
+    ///
+    /// A pixel is blended before it becomes ink, and stored once. Behind an edge lies what is seen next to it, shaded as far as
+    /// the edge reaches. What falls between the centres of two lines stays missed, and so does an edge over
+    /// [`Background::Keep`](crate::Background::Keep), whose colours are not known. Takes 8 bytes of stack for each of `ACTIVE`
+    /// spans, and about 1 kB; a line of more spans than that stays as it is.
+    #[inline(never)]
+    pub fn smooth_line<P: Ink>(&mut self, y: u16, row: &mut [P]) -> Line {
+        if !self.seek(y) {
+            return self.none();
+        }
+        let width = self.width().min(row.len());
+        let Some(material) = self.first_material() else { return self.line(y, row) };
+        let (line, Gathering { spans, has_all }) =
+            self.walk(y, width, material, Gathering::<ACTIVE> { spans: Vec::new(), has_all: true });
+        if !has_all {
+            return self.line(y, row);
+        }
+        let background = self.background(y);
+        let (list, facets) = self.scene();
+        let cuts = Edges { list }.cuts(&spans, width, background.is_some());
+        let row = Row::new(row.get_mut(..width).unwrap_or_default(), background);
+        let seen = Seen { picture: self.picture(), facets, spans: &spans, y: y.into(), background };
+        let mut smoothing = Smoothing::<P, S, ACTIVE, LIGHTS, L> { seen, row };
+        let (mut cuts, mut x) = (cuts.as_slice(), 0);
+        for (place, span) in spans.iter().enumerate() {
+            let Range { start, end } = span.range();
+            smoothing.store(x..start, None, &mut cuts);
+            smoothing.store(start..end, Some(place), &mut cuts);
+            x = end;
+        }
+        smoothing.store(x..width, None, &mut cuts);
+        smoothing.row.finish();
+        line
+    }
+}
+
+/// The spans of a line on their way to be looked at together.
+struct Gathering<const ACTIVE: usize> {
+    spans: Vec<Span, ACTIVE>,
+    has_all: bool,
+}
+
+impl<'m, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
+    for Gathering<ACTIVE>
+{
+    fn dress(&mut self, _: &'m Material) {}
+
+    fn span(&mut self, span: Span, _: &S::Facet, _: &Active) {
+        self.has_all &= self.spans.push(span).is_ok();
+    }
+}
+
+/// An edge that ends a surface, and the pixels that it cuts.
+#[derive(Clone, Copy, Debug)]
+struct Cut {
+    edge: Silhouette,
+    from: u16,
+    to: u16,
+    /// The first pixel that shows what is right of it.
+    at: u16,
+    /// The spans on both sides; none for the background.
+    sides: [Option<u16>; 2],
+}
+
+/// The triangles that cross a line, and the edges at which spans end.
+struct Edges<'a, const ACTIVE: usize> {
+    list: &'a ActiveList<ACTIVE>,
+}
+
+impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
+    /// The edges that end a surface, each between two spans, or a span and the background.
+    fn cuts(&self, spans: &[Span], width: usize, over_background: bool) -> Vec<Cut, EDGES> {
+        let mut cuts = Vec::<Cut, EDGES>::new();
+        let mut add = |edge: Option<Silhouette>, at: i32, sides: [Option<u16>; 2]| {
+            let Some(edge) = edge else { return };
+            let at = at as u16;
+            let [mut from, to] = edge.pixels().map(|pixel| pixel.clamp(0, width as i32) as u16);
+            if let Some(last) = cuts.last_mut() {
+                last.to = last.to.min(at);
+                from = from.max(last.to);
+            }
+            // What has no room stays as it is.
+            let _ = cuts.push(Cut { edge, from, to: to.max(from), at, sides });
+        };
+        let mut before: Option<(u16, Span)> = None;
+        for (place, span) in (0..).map(Some).zip(spans.iter().copied().map(Some).chain([None])) {
+            let met = before.zip(span).is_some_and(|((_, last), span)| last.end() == span.start());
+            if let Some(((last_place, last), span)) = before.zip(span).filter(|_| met) {
+                let [left, right] = [self.own(last, true), self.own(span, false)];
+                let is_inside = matches!((left, right), (Some(left), Some(right)) if left.is_near(right));
+                if !is_inside {
+                    let edge = self.end(last, true).or_else(|| self.end(span, false));
+                    add(edge, span.start(), [Some(last_place), place]);
+                }
+            } else if over_background {
+                if let Some((last_place, last)) = before {
+                    add(self.end(last, true), last.end(), [Some(last_place), None]);
+                }
+                if let Some(span) = span {
+                    add(self.end(span, false), span.start(), [None, place]);
+                }
+            }
+            before = place.zip(span);
+        }
+        cuts
+    }
+
+    /// An edge of the triangle that is seen in a span, if the span ends there.
+    fn own(&self, span: Span, is_right: bool) -> Option<&Edge> {
+        let [left, right] = self.list.get(span.slot())?.sides();
+        let (edge, at) = if is_right { (right, span.end()) } else { (left, span.start()) };
+        (i32::from(edge.x()) == at).then_some(edge)
+    }
+
+    /// The edge that ends the surface seen in a span, beyond triangles too thin to cover a pixel; none if the surface goes on,
+    /// behind what is seen next.
+    fn end(&self, span: Span, is_right: bool) -> Option<Silhouette> {
+        let mut edge = self.own(span, is_right)?;
+        for _ in 0..ACTIVE {
+            let at = i32::from(edge.x());
+            let near = |other: &&Span| at == if is_right { other.start() } else { other.end() };
+            let next = self.list.extents().iter().filter(near).find_map(|other| {
+                let [left, right] = self.list.get(other.slot())?.sides();
+                let (near, far) = if is_right { (left, right) } else { (right, left) };
+                near.is_near(edge).then_some((other.is_empty(), far))
+            });
+            match next {
+                None => return Some(Silhouette::new(edge)),
+                Some((true, far)) => edge = far,
+                Some((false, ..)) => return None,
+            }
+        }
+        None
+    }
+}
+
+/// A line on its way into a row.
+struct Smoothing<'a, 'f, 'm, 'r, P, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
+    seen: Seen<'a, 'f, 'm, S, ACTIVE, LIGHTS, L>,
+    row: Row<'r, P>,
+}
+
+impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>
+    Smoothing<'_, '_, '_, '_, P, S, ACTIVE, LIGHTS, L>
+{
+    /// Stores pixels that show a span, or the background, and what cuts them.
+    fn store(&mut self, pixels: Range<usize>, span: Option<usize>, cuts: &mut &[Cut]) {
+        let Range { start: mut x, end } = pixels;
+        while x < end {
+            let cut = loop {
+                match *cuts {
+                    [cut, rest @ ..] if usize::from(cut.to) <= x => *cuts = rest,
+                    [cut, ..] => break Some(cut),
+                    [] => break None,
+                }
+            };
+            let from = cut.map_or(end, |cut| usize::from(cut.from).min(end));
+            match cut {
+                Some(cut) if from <= x => {
+                    let is_left = x < usize::from(cut.at);
+                    let mut to = end.min(cut.to.into()).min(x + PIECE);
+                    if is_left {
+                        to = to.min(cut.at.into());
+                    }
+                    let [left, right] = cut.sides;
+                    let other = if is_left { right } else { left };
+                    let (mut here, mut there) = ([Color::BLACK; PIECE], [Color::BLACK; PIECE]);
+                    self.seen.colors(span, x, here.get_mut(..to - x).unwrap_or_default());
+                    self.seen.colors(other.map(usize::from), x, there.get_mut(..to - x).unwrap_or_default());
+                    let [left, right] = if is_left { [here, there] } else { [there, here] };
+                    let pixels = self.row.span(x, to).iter_mut().zip(x as i32..);
+                    for ((pixel, x), (left, right)) in pixels.zip(left.into_iter().zip(right)) {
+                        *pixel = P::plain(left.mixed(right, cut.edge.right(x)));
+                    }
+                    x = to;
+                }
+                _ => {
+                    if let Some((facet, surface)) = span.and_then(|span| self.seen.span(span)) {
+                        let paint = P::paint(surface.material);
+                        S::run(S::start(facet, x as i32, self.seen.y), &surface, self.row.span(x, from), &paint);
+                    }
+                    x = from;
+                }
+            }
+        }
+    }
+}
+
+/// What is seen on a line.
+struct Seen<'a, 'f, 'm, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
+    picture: &'a Picture<'f, 'm, LIGHTS, L>,
+    facets: &'a [S::Facet; ACTIVE],
+    spans: &'a [Span],
+    y: i32,
+    background: Option<Color>,
+}
+
+impl<'a, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> Seen<'a, '_, '_, S, ACTIVE, LIGHTS, L> {
+    /// What a span, or the background, is like at those pixels, in it or beside it.
+    #[inline(never)]
+    fn colors(&self, span: Option<usize>, x: usize, colors: &mut [Color]) {
+        if let Some((facet, surface)) = span.and_then(|span| self.span(span)) {
+            let paint = Color::paint(surface.material);
+            S::run(S::start(facet, x as i32, self.y), &surface, colors, &paint);
+        } else if let Some(background) = self.background {
+            colors.fill(background);
+        }
+    }
+
+    /// The facet of a span, and its surface.
+    fn span(&self, span: usize) -> Option<(&'a S::Facet, Surface<'a, LIGHTS>)> {
+        let span = self.spans.get(span)?;
+        let material = self.picture.geometry.material(span.look())?;
+        Some((self.facets.get(usize::from(span.slot()))?, Surface { material, intensities: self.picture.intensities }))
+    }
+}
