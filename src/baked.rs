@@ -9,7 +9,7 @@ use crate::{
         light::{Light, LightSource},
         material::{Color, Material},
     },
-    scan::{active::Active, table::Span},
+    scan::{active::Active, table::Span, visibility::Visibility},
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{ink::Ink, row::Row},
@@ -83,7 +83,9 @@ impl<const SPANS: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSourc
     }
 }
 
-impl<'m, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, 'm, ACTIVE, S, LIGHTS, L> {
+impl<'m, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>
+    Lines<'_, 'm, ACTIVE, S, LIGHTS, L, V>
+{
     /// Bakes line y: all but the shading of [`line`](Lines::line), which [`Baked::shade`] does later. A y below the picture makes
     /// an empty line of no pixels.
     #[inline(never)]

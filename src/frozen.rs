@@ -15,6 +15,7 @@ use crate::{
         geometry::Source,
         picture::{Background, Picture},
         table::Span,
+        visibility::Visibility,
     },
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
@@ -86,7 +87,7 @@ impl<
 
     /// Takes in a picture, from its first line to its last, or as many as there is room for. Returns the sums over its lines, of
     /// `active` the largest.
-    pub fn take<const ACTIVE: usize>(&mut self, mut lines: Lines<'_, 'm, ACTIVE, S, LIGHTS, L>) -> Line {
+    pub fn take<const ACTIVE: usize, V: Visibility>(&mut self, mut lines: Lines<'_, 'm, ACTIVE, S, LIGHTS, L, V>) -> Line {
         // Facets that were set up before are not here.
         lines.rewind();
         let picture = *lines.picture();

@@ -91,8 +91,11 @@ pub use model::{
     pose::Pose,
 };
 pub use scan::{
+    depth_line::DepthLine,
     geometry::Source,
     picture::{Background, Picture},
+    resolve::Spanning,
+    visibility::Visibility,
 };
 pub use scanner::{Line, Lines, Scanner};
 pub use shade::{

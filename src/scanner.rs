@@ -15,9 +15,10 @@ use crate::{
         geometry::Source,
         list::ActiveList,
         picture::Picture,
-        resolve::Sweep,
+        resolve::Spanning,
         table::{Span, Table},
         triangle::Triangle,
+        visibility::Visibility,
     },
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{ink::Ink, row::Row},
@@ -27,27 +28,38 @@ use crate::{
 ///
 /// Owns its memory: about 140 bytes for each active triangle with the default method and one light.
 #[derive(Clone, Debug)]
-pub struct Scanner<const ACTIVE: usize, S: Shade<LIGHTS, L> = DuffBarycentric, const LIGHTS: usize = 1, L: LightSource = Light> {
+pub struct Scanner<
+    const ACTIVE: usize,
+    S: Shade<LIGHTS, L> = DuffBarycentric,
+    const LIGHTS: usize = 1,
+    L: LightSource = Light,
+    V: Visibility = Spanning,
+> {
     list: ActiveList<ACTIVE>,
     facets: [S::Facet; ACTIVE],
     table: Table<ACTIVE>,
+    visibility: V,
 }
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Scanner<ACTIVE, S, LIGHTS, L> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>
+    Scanner<ACTIVE, S, LIGHTS, L, V>
+{
     /// A scanner at rest.
     #[must_use]
     pub const fn new() -> Self {
-        Self { list: ActiveList::new(), facets: [S::EMPTY; ACTIVE], table: Table::new() }
+        Self { list: ActiveList::new(), facets: [S::EMPTY; ACTIVE], table: Table::new(), visibility: V::NEW }
     }
 
     /// Starts on a picture, above its first line.
-    pub fn start<'s, 'm>(&'s mut self, picture: Picture<'s, 'm, LIGHTS, L>) -> Lines<'s, 'm, ACTIVE, S, LIGHTS, L> {
+    pub fn start<'s, 'm>(&'s mut self, picture: Picture<'s, 'm, LIGHTS, L>) -> Lines<'s, 'm, ACTIVE, S, LIGHTS, L, V> {
         // The walk to the first line asked for clears the list.
         Lines { scanner: self, picture, line: None, dropped: 0 }
     }
 }
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Default for Scanner<ACTIVE, S, LIGHTS, L> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility> Default
+    for Scanner<ACTIVE, S, LIGHTS, L, V>
+{
     fn default() -> Self {
         Self::new()
     }
@@ -86,15 +98,18 @@ pub struct Lines<
     S: Shade<LIGHTS, L> = DuffBarycentric,
     const LIGHTS: usize = 1,
     L: LightSource = Light,
+    V: Visibility = Spanning,
 > {
-    scanner: &'s mut Scanner<ACTIVE, S, LIGHTS, L>,
+    scanner: &'s mut Scanner<ACTIVE, S, LIGHTS, L, V>,
     picture: Picture<'s, 'm, LIGHTS, L>,
     /// The line that the active list stands on.
     line: Option<u16>,
     dropped: u16,
 }
 
-impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'s, 'm, ACTIVE, S, LIGHTS, L> {
+impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>
+    Lines<'s, 'm, ACTIVE, S, LIGHTS, L, V>
+{
     /// Where the picture lies on the panel, and its size.
     #[must_use]
     pub const fn viewport(&self) -> Rectangle {
@@ -131,9 +146,9 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         if !self.seek(y) {
             return;
         }
-        let Scanner { list, table, .. } = &mut *self.scanner;
+        let Scanner { list, table, visibility, .. } = &mut *self.scanner;
         let geometry = &self.picture.geometry;
-        Sweep::new(y, geometry.width()).run(list, geometry, table, |spans, slots| {
+        visibility.resolve(y, geometry.width(), list, geometry, table, |spans, slots| {
             for span in spans.iter().filter(|span| !span.is_empty()) {
                 let source = slots.get(usize::from(span.slot())).and_then(|active| geometry.source(active.id));
                 if let Some(source) = source {
@@ -182,13 +197,49 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
     /// Hands the visible spans of line y, on which the list stands, to whoever takes them, with that material ready.
     #[inline(always)]
     pub(crate) fn walk<T: Take<'m, S, LIGHTS, L>>(&mut self, y: u16, width: usize, material: &'m Material, to: T) -> (Line, T) {
-        let Scanner { list, facets, table } = &mut *self.scanner;
+        let Scanner { list, facets, table, visibility } = &mut *self.scanner;
         let picture = &self.picture;
         let look = list.extents().first().map_or(0, |extent| extent.look());
         let line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::NONE };
         let mut walk = Walk { picture, facets, to, look, material, spans: 0, made: 0, bent: 0 };
-        Sweep::new(y, width as i32).run(list, &picture.geometry, table, |spans, slots| walk.see(spans, slots));
+        visibility.resolve(y, width as i32, list, &picture.geometry, table, |spans, slots| walk.see(spans, slots));
         (Line { spans: walk.spans, facets: walk.made, bent: walk.bent, ..line }, walk.to)
+    }
+
+    /// The triangle that is seen at a pixel of the picture; none for the background, and outside of the picture.
+    ///
+    /// There is no buffer of numbers: the line is resolved once more, at the cost of [`line`](Self::line) without shading, in
+    /// whatever order. So "the smallest pick primitive becomes a visible surface and not a pixel" (*Faster Phong Shading*, §1).
+    ///
+    /// ```
+    /// use beamshade::{Camera, Frame, Light, Pose, Scanner, Source};
+    /// # use embedded_graphics::geometry::Size;
+    /// # use beamshade::{Color, Material, Mesh, MeshData};
+    /// # use fixed::types::I16F16;
+    /// # static CARD: Mesh<'static> = match Mesh::new(MeshData {
+    /// #     extent: I16F16::ONE, center: [0; 3], radius: 32768, positions: &[[-16384, -16384, 0], [16384, -16384, 0], [0, 16384, 0]],
+    /// #     normals: &[[0, 0, 16384]; 3], triangles: &[[0, 1, 2]], edges: &[[0; 3]], parts: &[[1, 0]],
+    /// #     materials: &[Material::new(Color::WHITE)],
+    /// # }) { Ok(mesh) => mesh, Err(_) => panic!() };
+    ///
+    /// let mut frame = Frame::<512, 512, 48>::new();
+    /// let mut scanner = Scanner::<72>::new();
+    /// frame.begin(&Camera::new(Size::new(64, 48)), &[Light::OFF])?;
+    /// frame.add(&CARD, &Pose::IDENTITY)?; // object 0
+    /// frame.add(&CARD, &Pose::IDENTITY.at([0.0, 0.0, 1.0]))?; // object 1, nearer
+    /// let mut lines = scanner.start(frame.picture());
+    /// assert_eq!(lines.pick(32, 24), Some(Source { object: 1, triangle: 0 }));
+    /// assert_eq!(lines.pick(0, 0), None);
+    /// # Ok::<(), beamshade::Full>(())
+    /// ```
+    pub fn pick(&mut self, x: u16, y: u16) -> Option<Source> {
+        let mut picked = None;
+        self.spans(y, |span, source| {
+            if span.contains(&x) {
+                picked = Some(source);
+            }
+        });
+        picked
     }
 
     /// Brings the active list to line y; false if the picture has no such line.

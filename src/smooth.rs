@@ -9,7 +9,10 @@ use crate::{
         light::LightSource,
         material::{Color, Material},
     },
-    scan::{active::Active, edge::Edge, list::ActiveList, picture::Picture, silhouette::Silhouette, table::Span},
+    scan::{
+        active::Active, edge::Edge, list::ActiveList, picture::Picture, silhouette::Silhouette, table::Span,
+        visibility::Visibility,
+    },
     scanner::{Line, Lines, Take},
     shade::{Shade, Surface},
     sink::{ink::Ink, row::Row},
@@ -21,7 +24,9 @@ const EDGES: usize = 24;
 /// Pixels blended at once.
 const PIECE: usize = 8;
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, '_, ACTIVE, S, LIGHTS, L> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>
+    Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>
+{
     /// As [`line`](Lines::line), with the edges that end a surface blended with what is seen behind them, by the area of the pixel
     /// that they leave (*Faster Phong Shading*, §3.6). An edge between two triangles of one surface stays as it is, and so does
     /// the line where surfaces cut each other.

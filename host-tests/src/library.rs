@@ -2,15 +2,15 @@
 
 use anyhow::{bail, ensure, Context, Result};
 use beamshade::{
-    Background, Camera, Color, Frame, Ink, Light, LightSource, Lines, Pose, Regular, Rotation, Scanner, SceneLight, Shade, Split,
-    Splits, Turn,
+    scan::vertex::Vertex, Background, Camera, Color, Frame, Ink, Light, LightSource, Lines, Pose, Regular, Rotation, Scanner,
+    SceneLight, Shade, Spanning, Split, Splits, Turn, Visibility,
 };
 use beamshade_mesh::{Model, Part, Quantized, Surface};
 use embedded_graphics::geometry::Size;
 use glam::{DMat3, DVec3};
 
 use crate::{
-    reference::{self, Scene, Source, Viewer},
+    reference::{self, Polygon, Scene, Source, Viewer},
     Owner, Picture,
 };
 
@@ -191,13 +191,25 @@ pub fn draw<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromReference>(
     scene: &Scene<'_>,
     meshes: &Meshes,
 ) -> Result<Picture<P>> {
+    draw_by::<Spanning, P, S, LIGHTS, L>(scene, meshes)
+}
+
+/// The same with that visibility, in place of spanning.
+///
+/// # Errors
+///
+/// As [`frame`].
+pub fn draw_by<V: Visibility, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromReference>(
+    scene: &Scene<'_>,
+    meshes: &Meshes,
+) -> Result<Picture<P>> {
     frame(scene, meshes, |picture| {
-        let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS, L>> = Box::default();
-        read(&mut scanner.start(picture))
+        let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS, L, V>> = Box::default();
+        read_by(&mut scanner.start(picture))
     })
 }
 
-/// The same with triangles split that way, and what became of each object's.
+/// As [`draw`], with triangles split that way, and what became of each object's.
 ///
 /// # Errors
 ///
@@ -213,19 +225,42 @@ pub fn draw_split<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromRefer
     })
 }
 
+/// The triangles of a picture as they lie on the screen.
+#[must_use]
+pub fn polygons<const LIGHTS: usize, L: LightSource>(picture: &beamshade::Picture<'_, '_, LIGHTS, L>) -> Vec<Polygon> {
+    let polygon = |(source, corners): (beamshade::Source, [&Vertex<LIGHTS>; 3])| Polygon {
+        owner: owner(source),
+        corners: corners.map(|corner| [corner.point().x, corner.point().y]),
+        nearness: corners.map(Vertex::nearness),
+    };
+    picture.outlines().map(polygon).collect()
+}
+
+/// The library's name of a triangle, in the reference's words.
+#[must_use]
+pub fn owner(source: beamshade::Source) -> Owner {
+    Owner { object: source.object.into(), triangle: source.triangle.into() }
+}
+
 /// All lines of a picture, with the owners of its pixels.
 pub fn read<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(
     lines: &mut Lines<'_, '_, ACTIVE, S, LIGHTS, L>,
+) -> Picture<P> {
+    read_by(lines)
+}
+
+/// The same with any visibility.
+pub fn read_by<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource, V: Visibility>(
+    lines: &mut Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>,
 ) -> Picture<P> {
     let size = lines.viewport().size;
     let mut picture = Picture::blank(size.width as usize, size.height as usize, P::plain(Color::BLACK));
     let (mut colors, mut owners) = (picture.color.chunks_mut(picture.width), picture.owner.chunks_mut(picture.width));
     for y in 0..size.height as u16 {
-        let (Some(row), Some(owner)) = (colors.next(), owners.next()) else { break };
+        let (Some(row), Some(row_owners)) = (colors.next(), owners.next()) else { break };
         lines.line(y, row);
         lines.spans(y, |span, source| {
-            let seen = Owner { object: source.object.into(), triangle: source.triangle.into() };
-            owner[usize::from(span.start)..usize::from(span.end)].fill(Some(seen));
+            row_owners[usize::from(span.start)..usize::from(span.end)].fill(Some(owner(source)));
         });
     }
     picture

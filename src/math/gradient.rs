@@ -38,7 +38,13 @@ impl Gradient {
     /// pixels, than 1/2000 of that side: such a triangle takes its values from its centroid.
     #[inline(always)]
     #[must_use]
-    pub fn new([p0, p1, p2]: [Point; 3]) -> Option<Self> {
+    pub fn new(points: [Point; 3]) -> Option<Self> {
+        Self::with_bits(points).map(|(gradient, _)| gradient)
+    }
+
+    /// The same with the number of good bits: on the triangle λ1 and λ2 are off by at most `2^−bits` before ρ is rounded.
+    #[inline(always)]
+    pub(crate) fn with_bits([p0, p1, p2]: [Point; 3]) -> Option<(Self, i32)> {
         let [ax, ay, bx, by] = [p1.x - p0.x, p1.y - p0.y, p2.x - p0.x, p2.y - p0.y];
         let mut bits = (ax ^ ax >> 31) | (ay ^ ay >> 31) | (bx ^ bx >> 31) | (by ^ by >> 31) | 1;
         // Thirteen bits for the largest: more precision for small triangles, no overflow for large ones.
@@ -73,7 +79,10 @@ impl Gradient {
         let [fx, fy] = [p0.x, p0.y].map(|place| SUBPIXELS / 2 - (place & (SUBPIXELS - 1)));
         let ([x1, x2], [y1, y2]) = (x, y);
         let at = [(x1 * fx + y1 * fy + 128) >> 8, (x2 * fx + y2 * fy + 128) >> 8];
-        Some(Self { at, x, y, short: inverse.short(), exponent: inverse.zeros + up })
+        let exponent = inverse.zeros + up;
+        // Small ones have half a unit of `at`; large ones that of each coordinate, in numerators of 2³¹⁻ᶻᵉʳᵒˢ and more for λ = 1.
+        let bits = if up < 0 { 16 - inverse.zeros } else { 24 - exponent };
+        Some((Self { at, x, y, short: inverse.short(), exponent }, bits))
     }
 
     /// A value that is `v0` at corner 0, `v0 + d1` and `v0 + d2` at the others: at the anchor, and its increase for a

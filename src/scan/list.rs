@@ -11,7 +11,7 @@ const BATCH: usize = 8;
 
 /// Up to `N` active triangles in fixed slots, and what they cover on the line, in the order of the first pixel.
 #[derive(Clone, Debug)]
-pub(crate) struct ActiveList<const N: usize> {
+pub struct ActiveList<const N: usize> {
     slots: [Active; N],
     order: Vec<Span, N>,
     /// The first free slot; N if there is none.

@@ -2,6 +2,7 @@
 
 pub mod active;
 pub mod bucket;
+pub mod depth_line;
 pub mod edge;
 pub mod geometry;
 pub mod list;
@@ -11,3 +12,4 @@ pub(crate) mod silhouette;
 pub mod table;
 pub mod triangle;
 pub mod vertex;
+pub mod visibility;

@@ -2,7 +2,12 @@
 
 use embedded_graphics::primitives::Rectangle;
 
-use super::{bucket::TriangleId, geometry::Geometry, triangle::Triangle, vertex::Vertex};
+use super::{
+    bucket::TriangleId,
+    geometry::{Geometry, Source},
+    triangle::Triangle,
+    vertex::Vertex,
+};
 use crate::model::{
     light::{Light, LightSource},
     material::Color,
@@ -59,6 +64,13 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
     #[must_use]
     pub const fn triangles(&self) -> usize {
         self.geometry.kept.len()
+    }
+
+    /// Those triangles with their corners, in the order of their first addition to the frame; of one that was clipped or split, its
+    /// parts.
+    pub fn outlines(&self) -> impl Iterator<Item = (Source, [&'f Vertex<LIGHTS>; 3])> {
+        let geometry = self.geometry;
+        geometry.kept.iter().filter_map(move |kept| Some((geometry.source(kept.triangle)?, geometry.corners(kept.triangle)?)))
     }
 
     /// A triangle, fetched.

@@ -4,11 +4,33 @@ use heapless::Vec;
 
 use super::{
     active::Active,
-    bucket::TriangleId,
     geometry::Geometry,
     list::ActiveList,
     table::{Span, Table},
+    visibility::{wins, Visibility},
 };
+
+/// The spanning scan-line algorithm: depths are compared where triangles begin, end or cross. Needs no memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Spanning;
+
+impl Visibility for Spanning {
+    const NEW: Self = Self;
+
+    /// Where triangles lie beside each other, what is handed on are their extents themselves.
+    #[inline(always)]
+    fn resolve<const N: usize, const L: usize>(
+        &mut self,
+        line: u16,
+        width: i32,
+        list: &mut ActiveList<N>,
+        geometry: &Geometry<'_, '_, L>,
+        table: &mut Table<N>,
+        see: impl FnMut(&[Span], &mut [Active; N]),
+    ) {
+        Sweep::new(line, width).run(list, geometry, table, see);
+    }
+}
 
 /// A walk along one line, from one change of the visible triangle to the next.
 ///
@@ -19,7 +41,7 @@ use super::{
 /// Triangles go by their place in the list, whose extents are in order: those that have not begun start at x or after it, save
 /// left of the picture.
 #[derive(Clone, Debug)]
-pub(crate) struct Sweep<const N: usize> {
+struct Sweep<const N: usize> {
     line: u16,
     width: i32,
     /// Up to here the line is resolved.
@@ -31,14 +53,13 @@ pub(crate) struct Sweep<const N: usize> {
 }
 
 impl<const N: usize> Sweep<N> {
-    pub(crate) const fn new(line: u16, width: i32) -> Self {
+    const fn new(line: u16, width: i32) -> Self {
         Self { line, width, x: 0, next: 0, open: Vec::new() }
     }
 
-    /// Walks the line, and hands what is seen to `see`, run by run, with all slots: disjoint spans in the picture, from left to
-    /// right, some of them empty. Where triangles lie beside each other these are their extents themselves.
+    /// Walks the line, run by run.
     #[inline(always)]
-    pub(crate) fn run<const L: usize>(
+    fn run<const L: usize>(
         mut self,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
@@ -294,11 +315,4 @@ impl Open {
         let [far, near] = slots.get(usize::from(extent.slot()))?.reach();
         Some(Self { place, start: extent.start(), end: extent.end(), far, near })
     }
-}
-
-/// Whether `other` is in front where both are equally near.
-#[cold]
-#[inline(never)]
-fn wins<const L: usize>(other: TriangleId, front: TriangleId, geometry: &Geometry<'_, '_, L>) -> bool {
-    (geometry.whole(other), other) <= (geometry.whole(front), front)
 }

@@ -90,7 +90,7 @@ impl Span {
 
 /// Disjoint spans of one line, left to right, none of them empty, gaps showing the background.
 #[derive(Clone, Debug)]
-pub(crate) struct Table<const SPANS: usize> {
+pub struct Table<const SPANS: usize> {
     spans: [Span; SPANS],
     count: usize,
 }

@@ -3,9 +3,11 @@
 use embedded_graphics::{draw_target::DrawTarget, geometry::Size, pixelcolor::PixelColor, primitives::Rectangle};
 
 use super::ink::Ink;
-use crate::{model::light::LightSource, scanner::Lines, shade::Shade};
+use crate::{model::light::LightSource, scan::visibility::Visibility, scanner::Lines, shade::Shade};
 
-impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Lines<'_, '_, ACTIVE, S, LIGHTS, L> {
+impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>
+    Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>
+{
     /// Draws the whole picture, shading into the row again and again, by one
     /// [`fill_contiguous`](DrawTarget::fill_contiguous). A row shorter than the picture cuts off its right side.
     ///
@@ -40,8 +42,8 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
 }
 
 /// The pixels of a picture, row after row.
-struct Pixels<'r, 'l, 'm, P, F, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> {
-    lines: &'r mut Lines<'l, 'm, ACTIVE, S, LIGHTS, L>,
+struct Pixels<'r, 'l, 'm, P, F, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility> {
+    lines: &'r mut Lines<'l, 'm, ACTIVE, S, LIGHTS, L, V>,
     finish: F,
     row: &'r mut [P],
     x: usize,
@@ -49,8 +51,15 @@ struct Pixels<'r, 'l, 'm, P, F, const ACTIVE: usize, S: Shade<LIGHTS, L>, const 
     y: u16,
 }
 
-impl<P: Ink, F: FnMut(u16, &mut [P]), const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Iterator
-    for Pixels<'_, '_, '_, P, F, ACTIVE, S, LIGHTS, L>
+impl<
+        P: Ink,
+        F: FnMut(u16, &mut [P]),
+        const ACTIVE: usize,
+        S: Shade<LIGHTS, L>,
+        const LIGHTS: usize,
+        L: LightSource,
+        V: Visibility,
+    > Iterator for Pixels<'_, '_, '_, P, F, ACTIVE, S, LIGHTS, L, V>
 {
     type Item = P;
 

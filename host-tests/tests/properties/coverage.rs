@@ -7,14 +7,15 @@ use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Gray8;
 use fixed::types::I16F16;
 use glam::DVec3;
-use host_tests::library::read;
+use host_tests::library::{polygons, read};
+use host_tests::reference::EdgeList;
 use host_tests::Owner;
 use proptest::array::{uniform2, uniform3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 use crate::cases;
-use crate::scene::{rotations, Place, Rays, Scene, Shape};
+use crate::scene::{rotations, scenes, Place, Rays, Scene, Shape};
 
 const SIZE: usize = 48;
 const DISTANCE: f64 = 3.0;
@@ -121,6 +122,25 @@ proptest! {
         prop_assert_eq!(times, vec![1; SIZE * SIZE]);
         let together = scene.show(|picture| read::<Gray8, Flat, 128, 1, _>(&mut Scanner::new().start(picture)));
         prop_assert!(together.owner == owners);
+    }
+
+    /// Each triangle by itself, in the pieces that clipping made of it.
+    #[test]
+    fn linked_edge_lists_cover_the_same(scene in scenes::<1>()) {
+        for ((owner, pixels), (_, alone)) in scene.coverage().iter().zip(scene.alone()) {
+            let covered = alone.show(|picture| {
+                let size = picture.viewport().size;
+                let (width, height) = (size.width as usize, size.height as usize);
+                let mut covered = vec![false; width * height];
+                for polygon in polygons(&picture) {
+                    for (y, segment) in EdgeList::new(&polygon.corners, height).segments(width) {
+                        covered[y * width + segment.start..y * width + segment.end].fill(true);
+                    }
+                }
+                (0..covered.len()).filter(|pixel| covered[*pixel]).collect::<Vec<_>>()
+            });
+            prop_assert!(covered == *pixels, "{:?}", owner);
+        }
     }
 
     /// A floor through the near plane and far beyond the guard band, wherever it lies.

@@ -173,20 +173,26 @@ impl<const LIGHTS: usize> Scene<LIGHTS> {
         self.objects.iter().map(corners).collect()
     }
 
-    /// The pixels that each triangle covers when it is drawn alone, as indices row by row.
-    pub(crate) fn coverage(&self) -> Vec<(Owner, Vec<usize>)> {
-        let mut covered = Vec::new();
+    /// Each triangle in a scene of its own.
+    pub(crate) fn alone(&self) -> Vec<(Owner, Self)> {
+        let mut scenes = Vec::new();
         for ((shape, pose), object) in self.objects.iter().zip(0..) {
             let materials = shape.parts.iter().flat_map(|[count, material]| repeat_n(*material, (*count).into()));
             for ((corners, material), triangle) in shape.triangles.iter().zip(materials).zip(0..) {
                 let alone = Shape { triangles: vec![*corners], edges: vec![[0; 3]], parts: vec![[1, material]], ..shape.clone() };
-                let scene = Self { objects: vec![(alone, *pose)], ..self.clone() };
-                let picture = scene.show(|picture| read::<Gray8, Flat, 8, LIGHTS, _>(&mut Scanner::new().start(picture)));
-                let pixels = (0..picture.owner.len()).filter(|pixel| picture.owner[*pixel].is_some()).collect();
-                covered.push((Owner { object, triangle }, pixels));
+                scenes.push((Owner { object, triangle }, Self { objects: vec![(alone, *pose)], ..self.clone() }));
             }
         }
-        covered
+        scenes
+    }
+
+    /// The pixels that each triangle covers when it is drawn alone, as indices row by row.
+    pub(crate) fn coverage(&self) -> Vec<(Owner, Vec<usize>)> {
+        let covered = |scene: &Self| {
+            let picture = scene.show(|picture| read::<Gray8, Flat, 8, LIGHTS, _>(&mut Scanner::new().start(picture)));
+            (0..picture.owner.len()).filter(|pixel| picture.owner[*pixel].is_some()).collect()
+        };
+        self.alone().iter().map(|(owner, scene)| (*owner, covered(scene))).collect()
     }
 
     /// Shows the scene's picture, from a frame with room for everything.

@@ -48,6 +48,11 @@ type Shading = crate::parts::Parts<Method>;
 #[cfg(not(feature = "parts"))]
 type Shading = Method;
 
+#[cfg(feature = "depth-line")]
+type Seeing = beamshade::DepthLine<SIZE>;
+#[cfg(not(feature = "depth-line"))]
+type Seeing = beamshade::Spanning;
+
 /// T880: 240×240 pixels, one directional light.
 #[cfg(any(feature = "t880", feature = "t880-parts"))]
 mod setting {
@@ -60,6 +65,23 @@ mod setting {
     /// Triangles that face the eye in the worst frame, and that cross the worst line.
     pub(super) const SEEN: usize = 488;
     pub(super) const ACTIVE: usize = 65;
+
+    pub(super) fn lights() -> [Light; LIGHTS] {
+        [Light::directional([-0.5, 0.7, 0.6])]
+    }
+}
+
+/// Three teapots through each other under the same light.
+#[cfg(feature = "three-objects")]
+mod setting {
+    use beamshade::Light;
+
+    pub(super) type Source = Light;
+    pub(super) const LIGHTS: usize = 1;
+    pub(super) const SIZE: usize = 240;
+    pub(super) const FRAMES: u16 = 60;
+    pub(super) const SEEN: usize = 3 * 488;
+    pub(super) const ACTIVE: usize = 3 * 65;
 
     pub(super) fn lights() -> [Light; LIGHTS] {
         [Light::directional([-0.5, 0.7, 0.6])]
@@ -121,12 +143,14 @@ mod setting {
 
 use setting::{lights, Source, ACTIVE, FRAMES, LIGHTS, SEEN, SIZE};
 
+const OBJECTS: usize = if cfg!(feature = "three-objects") { 3 } else { 1 };
+
 /// Room for the parts of split triangles, and for their vertices.
 const MADE: usize = if cfg!(any(feature = "regular-split", feature = "highlight-split")) { 8192 } else { 0 };
 const CORNERS: usize = 2 * MADE;
 
-type TeapotFrame = Frame<'static, { 481 + CORNERS }, { SEEN + MADE }, SIZE, LIGHTS, 1, MADE, Source>;
-type TeapotScanner = Scanner<{ ACTIVE + MADE / 16 }, Shading, LIGHTS, Source>;
+type TeapotFrame = Frame<'static, { 481 * OBJECTS + CORNERS }, { SEEN + MADE }, SIZE, LIGHTS, OBJECTS, MADE, Source>;
+type TeapotScanner = Scanner<{ ACTIVE + MADE / 16 }, Shading, LIGHTS, Source, Seeing>;
 type Row = [Rgb565; SIZE];
 
 /// A measured scene: all state that rendering it needs, and one row of pixels.
@@ -159,7 +183,21 @@ impl Scene {
         let camera = Camera::new(Size::new(SIZE as u32, SIZE as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
         let turn = Turn::degrees(i32::from(step) * 360 / i32::from(FRAMES));
         let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(turn);
-        self.frame.begin(&camera, &lights()).is_ok() && self.add(&Pose::turned(rotation))
+        self.frame.begin(&camera, &lights()).is_ok() && self.add_all(rotation)
+    }
+
+    #[cfg(not(feature = "three-objects"))]
+    fn add_all(&mut self, rotation: Rotation) -> bool {
+        self.add(&Pose::turned(rotation))
+    }
+
+    /// The teapot thrice, close to each other, the second one turned over and the third one on its side.
+    #[cfg(feature = "three-objects")]
+    fn add_all(&mut self, rotation: Rotation) -> bool {
+        let pose = |turned, at| Pose::turned(rotation * turned).scaled(0.75).at(at);
+        self.add(&pose(Rotation::NONE, [-0.2, 0.1, 0.0]))
+            && self.add(&pose(Rotation::x(Turn::degrees(180)), [0.2, 0.0, 0.1]))
+            && self.add(&pose(Rotation::z(Turn::degrees(90)), [0.0, -0.1, -0.1]))
     }
 
     #[cfg(not(any(feature = "regular-split", feature = "highlight-split")))]
@@ -183,7 +221,7 @@ impl Scene {
     }
 
     /// The lines of the frame that was prepared, and a row for them.
-    pub fn lines(&mut self) -> (Lines<'_, '_, { ACTIVE + MADE / 16 }, Shading, LIGHTS, Source>, &mut Row) {
+    pub fn lines(&mut self) -> (Lines<'_, '_, { ACTIVE + MADE / 16 }, Shading, LIGHTS, Source, Seeing>, &mut Row) {
         (self.scanner.start(self.frame.picture()), &mut self.row)
     }
 }
