@@ -218,6 +218,31 @@ impl Paint<[u8; 2]> for &Material {
     }
 }
 
+/// Rgb565 as a number: for ports that send words of 16 bits, the highest bit first, and for what shifts bits out by itself.
+impl Ink for u16 {
+    type Paint<'m> = &'m Material;
+
+    fn paint(material: &Material) -> &Material {
+        material
+    }
+
+    fn plain(color: Color) -> Self {
+        Rgb565::plain(color).into_storage()
+    }
+}
+
+impl Paint<u16> for &Material {
+    #[inline(always)]
+    fn mix(&self, intensity: Intensity) -> u16 {
+        rgb565(self, intensity)
+    }
+
+    #[inline(always)]
+    fn dull(&self, diffuse: u32) -> u16 {
+        at(&self.ramp, diffuse)
+    }
+}
+
 /// A material in grey: the [luma](Color::luma) of its colours.
 #[derive(Clone, Copy, Debug)]
 pub struct Gray<const BITS: u32>(Channel<BITS>);

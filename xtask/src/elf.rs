@@ -60,6 +60,11 @@ impl Elf {
         self.flash_bytes
     }
 
+    /// Its functions, by address.
+    pub(crate) fn functions(&self) -> &[Function] {
+        &self.functions
+    }
+
     /// The function that an address lies in.
     pub(crate) fn function(&self, address: u64) -> Option<&Function> {
         let after = self.functions.partition_point(|function| function.address <= address);

@@ -8,7 +8,7 @@ use crate::{process, toolchain};
 use anyhow::{ensure, Context, Result};
 use std::process::Command;
 
-/// Build the measuring firmware and the OLED board's, for all their targets.
+/// Build the measuring firmware and that of the boards, for all their targets.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// Build for this target alone, such as thumbv6m-none-eabi.
@@ -53,6 +53,14 @@ pub(crate) const MEASURE: Package = Package { path: "xtask/measure", program: "m
 pub(crate) const OLED: Package = Package { path: "examples/lm3s6965-oled", program: "lm3s6965-oled" };
 pub(crate) const OLED_TARGET: &str = "thumbv7m-none-eabi";
 
+/// The Raspberry Pi Pico's firmware, one for each panel, and its target.
+pub(crate) const PICO_ST7789: Package = Package { path: "examples/pico-st7789", program: "pico-st7789" };
+pub(crate) const PICO_GC9A01: Package = Package { path: "examples/pico-gc9a01", program: "pico-gc9a01" };
+pub(crate) const PICO_TARGET: &str = "thumbv6m-none-eabi";
+
+/// The firmware of boards, with its target.
+pub(crate) const BOARDS: [(Package, &str); 3] = [(OLED, OLED_TARGET), (PICO_ST7789, PICO_TARGET), (PICO_GC9A01, PICO_TARGET)];
+
 /// All targets of all firmware.
 pub(crate) fn triples() -> impl Iterator<Item = &'static str> {
     TARGETS.iter().map(|target| target.triple).chain([OLED_TARGET])
@@ -94,8 +102,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         report(&build(MEASURE, target.triple, &["firmware", SCENE, METHOD])?, target.triple);
         built += 1;
     }
-    if wanted(OLED_TARGET) {
-        report(&build(OLED, OLED_TARGET, &[])?, OLED_TARGET);
+    for (package, target) in BOARDS.into_iter().filter(|(_, target)| wanted(target)) {
+        report(&build(package, target, &[])?, target);
         built += 1;
     }
     ensure!(built > 0, "no firmware for this target; there is for {}", triples().collect::<Vec<_>>().join(", "));

@@ -1,7 +1,7 @@
 //! What a command needs of the machine, and how to get it.
 
 use crate::toolchain::{self, Toolchain, DEBIAN_PACKAGES};
-use crate::{firmware, process};
+use crate::{firmware, process, project};
 use anyhow::{bail, Result};
 use std::process::Command;
 
@@ -12,6 +12,8 @@ pub(crate) enum Need {
     FirmwareCompiler,
     /// QEMU for Arm and RISC-V.
     Qemu,
+    /// Node.js, which runs the emulator of the RP2040, and npm, which gets it.
+    Node,
     /// `cargo fmt` and `cargo clippy`.
     Lints,
 }
@@ -28,6 +30,7 @@ impl Need {
                 }
             }
             Need::Qemu => process::exists("qemu-system-arm") && process::exists("qemu-system-riscv32"),
+            Need::Node => process::exists("node") && process::exists("npm"),
             Need::Lints => process::exists("cargo-clippy") && process::exists("rustfmt"),
         })
     }
@@ -38,6 +41,7 @@ impl Need {
             Need::FirmwareCompiler if toolchain::forced()? == Some(Toolchain::Rustup) => Vec::new(),
             Need::FirmwareCompiler => DEBIAN_PACKAGES.map(String::from).to_vec(),
             Need::Qemu => qemu_packages(),
+            Need::Node => vec!["nodejs".into(), "npm".into()],
             Need::Lints => Vec::new(),
         })
     }
@@ -48,6 +52,7 @@ impl Need {
             Need::FirmwareCompiler => format!("rustup target add {}", firmware::triples().collect::<Vec<_>>().join(" ")),
             Need::Qemu if cfg!(target_os = "macos") => "brew install qemu".into(),
             Need::Qemu => "install QEMU 7.2 or later: qemu-system-arm and qemu-system-riscv32".into(),
+            Need::Node => "install Node.js 18 or later, and npm".into(),
             Need::Lints => "rustup component add clippy rustfmt".into(),
         }
     }
@@ -93,6 +98,22 @@ pub(crate) fn ensure(needs: &[Need]) -> Result<()> {
         return Ok(());
     }
     bail!("something is missing. This gets it:\n{}", advice.join("\n"))
+}
+
+/// Gets the emulator of the RP2040, in the version that xtask/bench names, unless it is there.
+///
+/// # Errors
+/// If npm cannot.
+pub(crate) fn bench() -> Result<()> {
+    let folder = project::root().join("xtask/bench");
+    let changed = |file: &str| folder.join(file).metadata().and_then(|data| data.modified()).ok();
+    // npm's own record of what it has installed.
+    if changed("node_modules/.package-lock.json") >= changed("package-lock.json") {
+        return Ok(());
+    }
+    let mut command = Command::new("npm");
+    command.args(["ci", "--no-audit", "--no-fund"]).current_dir(folder).stdout(std::io::stderr());
+    process::run(&mut command)
 }
 
 /// apt-get, with the right to install.

@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod adaptive;
+mod board;
 mod costs;
 mod count;
 mod cycles;
@@ -37,6 +38,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Accuracy(accuracy::Arguments),
+    Board(board::Arguments),
     Firmware(firmware::Arguments),
     Cycles(cycles::Arguments),
     Demo(demo::Arguments),
@@ -49,6 +51,7 @@ enum Command {
 fn run(command: Command) -> Result<()> {
     match command {
         Command::Accuracy(arguments) => accuracy::run(&arguments),
+        Command::Board(arguments) => board::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),

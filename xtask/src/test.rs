@@ -1,6 +1,7 @@
 //! Everything that is checked before a change lands.
 
-use crate::firmware::{self, MEASURE, METHOD, OLED, OLED_TARGET, SCENE, TARGETS};
+use crate::board::{self, Board};
+use crate::firmware::{self, BOARDS, MEASURE, METHOD, SCENE, TARGETS};
 use crate::install::{self, Need};
 use crate::project;
 use crate::{cycles, oled, process};
@@ -8,7 +9,7 @@ use anyhow::{ensure, Result};
 use std::process::Command;
 use std::time::Instant;
 
-/// Check everything that CI checks: formatting, lints, documentation, tests, firmware, the emulated panel.
+/// Check everything that CI checks: formatting, lints, documentation, tests, firmware, the emulated panels.
 ///
 /// Goes on to the end whatever fails, and then says what did. Missing tools are installed first.
 #[derive(clap::Args)]
@@ -22,7 +23,7 @@ pub(crate) struct Arguments {
 type Step = (&'static str, fn() -> Result<()>);
 
 /// The steps, the quick ones first.
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 11] = [
     ("formatting", formatting),
     ("lints", lints),
     ("documentation", documentation),
@@ -32,14 +33,17 @@ const STEPS: [Step; 9] = [
     ("no path to a panic", no_panic),
     ("cycles and checksums", same_pixels),
     ("emulated panel", emulated_panel),
+    ("emulator tests", emulator_tests),
+    ("emulated boards", emulated_boards),
 ];
 
 /// Packages that are workspaces of their own.
-const APART: [&str; 3] = ["xtask/counter", "xtask/measure", "examples/lm3s6965-oled"];
+const APART: [&str; 5] =
+    ["xtask/counter", "xtask/measure", "examples/lm3s6965-oled", "examples/pico-gc9a01", "examples/pico-st7789"];
 
 /// `cargo xtask test`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    install::ensure(&[Need::Lints, Need::FirmwareCompiler, Need::Qemu])?;
+    install::ensure(&[Need::Lints, Need::FirmwareCompiler, Need::Qemu, Need::Node])?;
     let (mut passed, mut failed) = (0, Vec::new());
     for (name, step) in STEPS {
         if arguments.only.as_ref().is_some_and(|text| !name.contains(text.as_str())) {
@@ -107,9 +111,9 @@ fn counter_tests() -> Result<()> {
     process::run(command.arg(project::target()?.join("counter")))
 }
 
-/// The OLED board's firmware as it is for hardware; the measuring firmware is built where it is run.
+/// The boards' firmware as it is for hardware; the measuring firmware is built where it is run.
 fn all_firmware() -> Result<()> {
-    firmware::build(OLED, OLED_TARGET, &[]).map(|_| ())
+    BOARDS.into_iter().try_for_each(|(package, target)| firmware::build(package, target, &[]).map(|_| ()))
 }
 
 /// That the measuring firmware links shows something only if one with a path to a panic does not.
@@ -134,4 +138,22 @@ fn emulated_panel() -> Result<()> {
     ensure!(first != later, "the picture on the panel does not move");
     oled::check(&first, 0)?;
     oled::check(&later, 7)
+}
+
+/// What the emulated panels make of bytes.
+fn emulator_tests() -> Result<()> {
+    let mut command = Command::new("node");
+    process::run(
+        command.args(["--test", "st7789.test.mjs"]).current_dir(project::root().join("xtask/bench")).stdout(std::io::stderr()),
+    )
+}
+
+/// The first frames on the panels of the emulated boards; of one, until there is text in the picture.
+fn emulated_boards() -> Result<()> {
+    for (board, frames) in [(Board::PicoSt7789, 10), (Board::PicoGc9a01, 2)] {
+        let folder = board.folder()?;
+        board::emulate(board, frames, &folder)?;
+        board::check(board, frames, &folder)?;
+    }
+    Ok(())
 }

@@ -120,7 +120,9 @@ proptest! {
     }
 
     #[test]
-    fn bytes_are_swapped_pixels(scene in scenes::<1>()) {
+    fn numbers_and_swapped_bytes_are_the_same_pixels(scene in scenes::<1>()) {
+        let numbers = drawn::<Rgb565>(&scene).map(|pixel| pixel.into_storage());
+        prop_assert!(numbers == drawn::<u16>(&scene));
         let swapped = drawn::<Rgb565>(&scene).map(|pixel| pixel.into_storage().to_be_bytes());
         prop_assert!(swapped == drawn::<[u8; 2]>(&scene));
     }
