@@ -12,7 +12,7 @@
 //!    makes the line's span table.
 //! 5. [`shade`]: one file for each method, behind one trait. The default, [`shade::duff_barycentric`], is exact Phong shading for
 //!    a few additions, products and look-ups a pixel.
-//! 6. [`sink`]: pixel encodings, palettes, the overlay, and whole frames to any embedded-graphics display.
+//! 6. [`sink`]: pixel encodings, palettes, dither, the overlay, and whole frames to any embedded-graphics display.
 //! 7. [`split`]: other ways into a frame, by which triangles with a highlight on them are split for Gouraud shading.
 //!
 //! The application owns every buffer and pulls lines; nothing here waits, calls back, allocates, panics, or knows a peripheral.
@@ -117,6 +117,7 @@ pub use shade::{
     Intensity, Paint, Shade,
 };
 pub use sink::{
+    dither::{Dithered, Page},
     ink::Ink,
     overlay::Overlay,
     palette::{Indexed, Palette},

@@ -1,5 +1,6 @@
-//! Where pixels go: encodings, palettes, overlays, displays.
+//! Where pixels go: encodings, palettes, dither, overlays, displays.
 
+pub mod dither;
 pub mod draw;
 pub mod ink;
 pub mod overlay;

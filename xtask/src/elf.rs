@@ -1,16 +1,27 @@
 //! What a linked program says about itself.
 
 use anyhow::{anyhow, ensure, Context, Result};
-use object::elf::SHF_ALLOC;
+use object::elf::{SHF_ALLOC, SHF_WRITE};
 use object::{Architecture, Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind, SymbolKind};
 use std::path::{Path, PathBuf};
 
 /// A program for a microcontroller.
 pub(crate) struct Elf {
     path: PathBuf,
-    flash_bytes: u64,
+    sizes: Sizes,
     /// By address.
     functions: Vec<Function>,
+}
+
+/// Bytes of what a program begins with.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sizes {
+    /// Code and constants.
+    pub(crate) text: u64,
+    /// Static variables that begin with some value.
+    pub(crate) data: u64,
+    /// Static variables that begin with zero, or with nothing in particular.
+    pub(crate) bss: u64,
 }
 
 /// A function, as the symbol table has it.
@@ -30,11 +41,18 @@ impl Elf {
         let file = object::File::parse(&*bytes).with_context(|| path.display().to_string())?;
         ensure!(file.entry() != 0, "{} is empty: it was linked without its linker script", path.display());
 
-        let in_flash = |section: &object::Section| {
-            let SectionFlags::Elf { sh_flags, .. } = section.flags() else { return false };
-            sh_flags.contains(SHF_ALLOC) && section.kind() != SectionKind::UninitializedData
-        };
-        let flash_bytes = file.sections().filter(in_flash).map(|section| section.size()).sum();
+        let mut sizes = Sizes::default();
+        for section in file.sections() {
+            let SectionFlags::Elf { sh_flags, .. } = section.flags() else { continue };
+            match (sh_flags.contains(SHF_WRITE), section.kind() == SectionKind::UninitializedData) {
+                _ if !sh_flags.contains(SHF_ALLOC) => {}
+                (false, false) => sizes.text += section.size(),
+                (true, false) => sizes.data += section.size(),
+                (true, true) => sizes.bss += section.size(),
+                // Places kept free, such as for the stack.
+                (false, true) => {}
+            }
+        }
 
         // The lowest bit of the address of an Arm function tells that it is Thumb code.
         let thumb = u64::from(file.architecture() == Architecture::Arm);
@@ -48,7 +66,7 @@ impl Elf {
             .collect();
         functions.sort_by_key(|function| function.address);
         functions.dedup_by_key(|function| function.address);
-        Ok(Elf { path: path.to_owned(), flash_bytes, functions })
+        Ok(Elf { path: path.to_owned(), sizes, functions })
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -57,7 +75,12 @@ impl Elf {
 
     /// Bytes that it takes in flash: code, constants, and what static variables begin with.
     pub(crate) fn flash_bytes(&self) -> u64 {
-        self.flash_bytes
+        self.sizes.text + self.sizes.data
+    }
+
+    /// Bytes by kind.
+    pub(crate) fn sizes(&self) -> Sizes {
+        self.sizes
     }
 
     /// Its functions, by address.

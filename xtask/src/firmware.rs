@@ -1,20 +1,13 @@
 //! Building firmware.
 
+use crate::boards::BOARDS;
 use crate::elf::Elf;
-use crate::install::{self, Need};
 use crate::project::{self, progress};
 use crate::qemu::{self, Machine};
 use crate::{process, toolchain};
-use anyhow::{ensure, Context, Result};
+use anyhow::{Context, Result};
+use std::collections::BTreeSet;
 use std::process::Command;
-
-/// Build the measuring firmware and that of the boards, for all their targets.
-#[derive(clap::Args)]
-pub(crate) struct Arguments {
-    /// Build for this target alone, such as thumbv6m-none-eabi.
-    #[arg(long)]
-    target: Option<String>,
-}
 
 /// A target of the measuring firmware.
 #[derive(Debug)]
@@ -58,12 +51,10 @@ pub(crate) const PICO_ST7789: Package = Package { path: "examples/pico-st7789", 
 pub(crate) const PICO_GC9A01: Package = Package { path: "examples/pico-gc9a01", program: "pico-gc9a01" };
 pub(crate) const PICO_TARGET: &str = "thumbv6m-none-eabi";
 
-/// The firmware of boards, with its target.
-pub(crate) const BOARDS: [(Package, &str); 3] = [(OLED, OLED_TARGET), (PICO_ST7789, PICO_TARGET), (PICO_GC9A01, PICO_TARGET)];
-
 /// All targets of all firmware.
 pub(crate) fn triples() -> impl Iterator<Item = &'static str> {
-    TARGETS.iter().map(|target| target.triple).chain([OLED_TARGET])
+    let triples = TARGETS.iter().map(|target| target.triple).chain(BOARDS.iter().map(|board| board.target));
+    triples.collect::<BTreeSet<_>>().into_iter()
 }
 
 /// The command that builds a package for a target.
@@ -91,25 +82,4 @@ pub(crate) fn build(package: Package, target: &str, features: &[&str]) -> Result
     let files = process::build(&mut command(package, target, features)?)?;
     let path = files.into_iter().find(|file| file.file_name().is_some_and(|name| name == package.program));
     Elf::open(&path.context("the build made no program")?)
-}
-
-/// `cargo xtask firmware`.
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    install::ensure(&[Need::FirmwareCompiler])?;
-    let wanted = |triple: &str| arguments.target.as_deref().is_none_or(|target| target == triple);
-    let mut built = 0;
-    for target in TARGETS.iter().filter(|target| wanted(target.triple)) {
-        report(&build(MEASURE, target.triple, &["firmware", SCENE, METHOD])?, target.triple);
-        built += 1;
-    }
-    for (package, target) in BOARDS.into_iter().filter(|(_, target)| wanted(target)) {
-        report(&build(package, target, &[])?, target);
-        built += 1;
-    }
-    ensure!(built > 0, "no firmware for this target; there is for {}", triples().collect::<Vec<_>>().join(", "));
-    Ok(())
-}
-
-fn report(elf: &Elf, target: &str) {
-    println!("{target:<28} {:>7} bytes of flash  {}", elf.flash_bytes(), project::shown(elf.path()));
 }

@@ -6,6 +6,7 @@
 mod accuracy;
 mod adaptive;
 mod board;
+mod boards;
 mod costs;
 mod count;
 mod cycles;
@@ -39,7 +40,7 @@ struct Arguments {
 enum Command {
     Accuracy(accuracy::Arguments),
     Board(board::Arguments),
-    Firmware(firmware::Arguments),
+    Boards(boards::Arguments),
     Cycles(cycles::Arguments),
     Demo(demo::Arguments),
     Gallery(gallery::Arguments),
@@ -52,7 +53,7 @@ fn run(command: Command) -> Result<()> {
     match command {
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Board(arguments) => board::run(&arguments),
-        Command::Firmware(arguments) => firmware::run(&arguments),
+        Command::Boards(arguments) => boards::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Gallery(_) => gallery::run(),

@@ -1,7 +1,8 @@
 //! Everything that is checked before a change lands.
 
 use crate::board::{self, Board};
-use crate::firmware::{self, BOARDS, MEASURE, METHOD, SCENE, TARGETS};
+use crate::boards::{self, BOARDS};
+use crate::firmware::{self, MEASURE, METHOD, SCENE, TARGETS};
 use crate::install::{self, Need};
 use crate::project;
 use crate::{cycles, oled, process};
@@ -29,7 +30,7 @@ const STEPS: [Step; 11] = [
     ("documentation", documentation),
     ("host tests", host_tests),
     ("counter tests", counter_tests),
-    ("firmware", all_firmware),
+    ("boards", boards::check),
     ("no path to a panic", no_panic),
     ("cycles and checksums", same_pixels),
     ("emulated panel", emulated_panel),
@@ -37,9 +38,8 @@ const STEPS: [Step; 11] = [
     ("emulated boards", emulated_boards),
 ];
 
-/// Packages that are workspaces of their own.
-const APART: [&str; 5] =
-    ["xtask/counter", "xtask/measure", "examples/lm3s6965-oled", "examples/pico-gc9a01", "examples/pico-st7789"];
+/// Packages that are workspaces of their own, as the boards are.
+const APART: [&str; 2] = ["xtask/counter", "xtask/measure"];
 
 /// `cargo xtask test`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
@@ -79,7 +79,7 @@ fn cargo(arguments: &[&str]) -> Command {
 
 fn formatting() -> Result<()> {
     process::run(&mut cargo(&["fmt", "--all", "--check"]))?;
-    for package in APART {
+    for package in APART.into_iter().chain(BOARDS.map(|board| board.package.path)) {
         let manifest = format!("{package}/Cargo.toml");
         process::run(&mut cargo(&["fmt", "--check", "--manifest-path", &manifest]))?;
     }
@@ -109,11 +109,6 @@ fn host_tests() -> Result<()> {
 fn counter_tests() -> Result<()> {
     let mut command = cargo(&["test", "--manifest-path", "xtask/counter/Cargo.toml", "--target-dir"]);
     process::run(command.arg(project::target()?.join("counter")))
-}
-
-/// The boards' firmware as it is for hardware; the measuring firmware is built where it is run.
-fn all_firmware() -> Result<()> {
-    BOARDS.into_iter().try_for_each(|(package, target)| firmware::build(package, target, &[]).map(|_| ()))
 }
 
 /// That the measuring firmware links shows something only if one with a path to a panic does not.

@@ -96,7 +96,7 @@ impl Toolchain {
             for variable in ["RUSTUP_TOOLCHAIN", "CARGO", "RUSTC_WRAPPER", "RUSTDOC", "LD_LIBRARY_PATH"] {
                 command.env_remove(variable);
             }
-            let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
+            let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace(['-', '.'], "_"));
             command.env("RUSTC", DEBIAN_RUSTC).env(linker, "ld.lld");
             // Debian has no compiled `core` for these targets, only its source.
             command.env("RUSTC_BOOTSTRAP", "1").env("CARGO_UNSTABLE_BUILD_STD", "core");
