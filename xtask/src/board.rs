@@ -2,8 +2,9 @@
 
 mod plot;
 mod run;
+pub(crate) mod vga;
 
-use crate::firmware::{self, PICO_GC9A01, PICO_ST7789, PICO_TARGET};
+use crate::firmware::{self, PICO_GC9A01, PICO_ST7789, PICO_TARGET, PICO_VGA};
 use crate::install::{self, Need};
 use crate::project::{self, progress};
 use anyhow::{ensure, Context, Result};
@@ -30,6 +31,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Board {
     PicoSt7789,
     PicoGc9a01,
+    PicoVga,
 }
 
 impl Board {
@@ -37,6 +39,7 @@ impl Board {
         match self {
             Board::PicoSt7789 => PICO_ST7789,
             Board::PicoGc9a01 => PICO_GC9A01,
+            Board::PicoVga => PICO_VGA,
         }
     }
 
@@ -50,6 +53,7 @@ impl Board {
         match self {
             Board::PicoSt7789 => "st7789",
             Board::PicoGc9a01 => "gc9a01",
+            Board::PicoVga => "vga",
         }
     }
 
@@ -58,6 +62,7 @@ impl Board {
         match self {
             Board::PicoSt7789 => [4, 4, 84, 10],
             Board::PicoGc9a01 => [78, 220, 84, 10],
+            Board::PicoVga => [0; 4],
         }
     }
 }
@@ -68,6 +73,9 @@ const SIDE: u32 = 240;
 /// `cargo xtask board`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let Arguments { board, frames } = *arguments;
+    if board == Board::PicoVga {
+        return vga::run(frames);
+    }
     let folder = board.folder()?;
     let run = emulate(board, frames, &folder)?;
     print!("{run}");

@@ -1,7 +1,7 @@
 //! The boards' firmware: built for each, run on none here.
 
 use crate::elf::Elf;
-use crate::firmware::{self, Package, OLED, OLED_TARGET, PICO_GC9A01, PICO_ST7789, PICO_TARGET};
+use crate::firmware::{self, Package, OLED, OLED_TARGET, PICO_GC9A01, PICO_ST7789, PICO_TARGET, PICO_VGA};
 use crate::install::{self, Need};
 use crate::table;
 use anyhow::{ensure, Result};
@@ -26,10 +26,11 @@ const CORTEX_M33F: &str = "thumbv8m.main-none-eabihf";
 const RISCV_IMC: &str = "riscv32imc-unknown-none-elf";
 
 /// All boards.
-pub(crate) const BOARDS: [Board; 7] = [
+pub(crate) const BOARDS: [Board; 8] = [
     Board { package: OLED, target: OLED_TARGET },
     Board { package: PICO_ST7789, target: PICO_TARGET },
     Board { package: PICO_GC9A01, target: PICO_TARGET },
+    Board { package: PICO_VGA, target: PICO_TARGET },
     board("examples/pico-ssd1306", "pico-ssd1306", PICO_TARGET),
     board("examples/pico2-st7789", "pico2-st7789", CORTEX_M33F),
     board("examples/stm32f411-ili9341", "stm32f411-ili9341", CORTEX_M4F),

@@ -49,6 +49,7 @@ pub(crate) const OLED_TARGET: &str = "thumbv7m-none-eabi";
 /// The Raspberry Pi Pico's firmware, one for each panel, and its target.
 pub(crate) const PICO_ST7789: Package = Package { path: "examples/pico-st7789", program: "pico-st7789" };
 pub(crate) const PICO_GC9A01: Package = Package { path: "examples/pico-gc9a01", program: "pico-gc9a01" };
+pub(crate) const PICO_VGA: Package = Package { path: "examples/pico-vga", program: "pico-vga" };
 pub(crate) const PICO_TARGET: &str = "thumbv6m-none-eabi";
 
 /// All targets of all firmware.
