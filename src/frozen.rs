@@ -7,7 +7,7 @@ use heapless::Vec;
 use crate::{
     model::{
         light::{Light, LightSource},
-        material::Material,
+        material::{Color, Material},
     },
     scan::{
         active::Active,
@@ -72,7 +72,7 @@ impl<
         L: LightSource,
     > Frozen<'m, SPANS, FACETS, LINES, S, LIGHTS, L>
 {
-    /// A picture without lines.
+    /// A picture without lines; all zeros, so that a `static` takes no flash.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -80,7 +80,7 @@ impl<
             facets: Vec::new(),
             ends: Vec::new(),
             size: [0; 2],
-            background: Background::Keep,
+            background: Background::Plain(Color::BLACK),
             intensities: [0; LIGHTS],
         }
     }

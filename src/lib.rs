@@ -12,7 +12,8 @@
 //!    makes the line's span table.
 //! 5. [`shade`]: one file for each method, behind one trait. The default, [`shade::duff_barycentric`], is exact Phong shading for
 //!    a few additions, products and look-ups a pixel.
-//! 6. [`sink`]: pixel encodings, palettes, dither, the overlay, and whole frames to any embedded-graphics display.
+//! 6. [`sink`]: pixel encodings, palettes, dither, the overlay, and frames to any embedded-graphics display, whole or what of them
+//!    changed.
 //! 7. [`split`]: other ways into a frame, by which triangles with a highlight on them are split for Gouraud shading.
 //!
 //! The application owns every buffer and pulls lines; nothing here waits, calls back, allocates, panics, or knows a peripheral.
@@ -91,6 +92,7 @@ pub use model::{
     pose::Pose,
 };
 pub use scan::{
+    columns::Columns,
     depth_line::DepthLine,
     geometry::Source,
     picture::{Background, Picture},
@@ -117,9 +119,11 @@ pub use shade::{
     Intensity, Paint, Shade,
 };
 pub use sink::{
+    changes::{Changes, Sent, Strip},
     dither::{Dithered, Page},
     ink::Ink,
     overlay::Overlay,
     palette::{Indexed, Palette},
+    round::Round,
 };
 pub use split::{highlight::AtHighlight, regular::Regular, Split, Splits};

@@ -12,6 +12,7 @@ use crate::{
     scan::{
         active::Active,
         bucket::TriangleId,
+        columns::Columns,
         geometry::Source,
         list::ActiveList,
         picture::Picture,
@@ -240,6 +241,23 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
             }
         });
         picked
+    }
+
+    /// The columns of line y from the first pixel that a triangle covers to the last one, known before it is shaded; none if
+    /// all is background.
+    pub fn covered(&mut self, y: u16) -> Columns {
+        if !self.seek(y) {
+            return Columns::NONE;
+        }
+        let width = self.picture.geometry.width();
+        let (mut first, mut after) = (width, 0);
+        for extent in self.scanner.list.extents() {
+            let (start, end) = (extent.start().max(0), extent.end().min(width));
+            if start < end {
+                (first, after) = (first.min(start), after.max(end));
+            }
+        }
+        Columns { start: first as u16, end: after as u16 }.within(Columns::ALL)
     }
 
     /// Brings the active list to line y; false if the picture has no such line.

@@ -33,7 +33,8 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     ///
     /// A pixel is blended before it becomes ink, and stored once. Behind an edge lies what is seen next to it, shaded as far as
     /// the edge reaches. What falls between the centres of two lines stays missed, and so does an edge over
-    /// [`Background::Keep`](crate::Background::Keep), whose colours are not known. Takes 8 bytes of stack for each of `ACTIVE`
+    /// [`Background::Keep`](crate::Background::Keep), whose colours are not known. Shallow edges reach beyond what is
+    /// [`covered`](Lines::covered). Takes 8 bytes of stack for each of `ACTIVE`
     /// spans, and about 1 kB; a line of more spans than that stays as it is.
     #[inline(never)]
     pub fn smooth_line<P: Ink>(&mut self, y: u16, row: &mut [P]) -> Line {

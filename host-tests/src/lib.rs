@@ -5,6 +5,7 @@
 //! - [`Picture`] is what either renderer draws: colours, and the [`Owner`] of each pixel;
 //! - [`Format`] takes colours to the levels of an output format and back;
 //! - [`Measures`] tells how far two pictures are apart;
+//! - [`panel`] is a display behind a bus, which counts what comes;
 //! - [`image`] keeps pictures in PNG files.
 //!
 //! The reference shares no code with the library.
@@ -13,6 +14,7 @@ pub mod accuracy;
 pub mod image;
 pub mod library;
 pub mod methods;
+pub mod panel;
 pub mod reference;
 pub mod scenes;
 pub mod shapes;

@@ -2,6 +2,7 @@
 
 pub mod active;
 pub mod bucket;
+pub mod columns;
 pub mod depth_line;
 pub mod edge;
 pub mod geometry;

@@ -7,6 +7,7 @@ mod accuracy;
 mod adaptive;
 mod board;
 mod boards;
+mod bus;
 mod costs;
 mod count;
 mod cycles;
@@ -41,6 +42,7 @@ enum Command {
     Accuracy(accuracy::Arguments),
     Board(board::Arguments),
     Boards(boards::Arguments),
+    Bus(bus::Arguments),
     Cycles(cycles::Arguments),
     Demo(demo::Arguments),
     Gallery(gallery::Arguments),
@@ -54,6 +56,7 @@ fn run(command: Command) -> Result<()> {
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Board(arguments) => board::run(&arguments),
         Command::Boards(arguments) => boards::run(&arguments),
+        Command::Bus(_) => bus::run(),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Gallery(_) => gallery::run(),

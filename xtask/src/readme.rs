@@ -1,7 +1,7 @@
 //! The tables in README and docs.
 
 use crate::project::{self, progress};
-use crate::{accuracy, adaptive, costs, cycles, gallery};
+use crate::{accuracy, adaptive, bus, costs, cycles, gallery};
 use anyhow::{Context, Result};
 
 /// Write the README's tables anew, from what is measured now.
@@ -14,7 +14,7 @@ pub(crate) struct Arguments {
 
 /// `cargo xtask readme`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    write("README.md", &[("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?)])?;
+    write("README.md", &[("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?), ("bus", bus::text()?)])?;
     if arguments.all {
         gallery::run()?;
         // One by one, as each takes long.

@@ -4,6 +4,7 @@
 
 mod accuracy;
 mod capacity;
+mod changes;
 mod coverage;
 mod lines;
 mod phong;

@@ -45,7 +45,7 @@ fn drawn<P: Ink>(scene: &Scene) -> Picture<P> {
 }
 
 /// Random scenes that fill all of their pixels.
-fn filled() -> impl Strategy<Value = Scene> {
+pub(crate) fn filled() -> impl Strategy<Value = Scene> {
     (scenes(), colors(), colors()).prop_map(|(scene, top, bottom)| match scene.background {
         Background::Keep => Scene { background: Background::Gradient { top, bottom }, ..scene },
         _ => scene,
