@@ -7,6 +7,7 @@ use crate::install::{self, Need};
 use crate::project;
 use crate::{cycles, oled, process};
 use anyhow::{ensure, Result};
+use std::collections::BTreeSet;
 use std::process::Command;
 use std::time::Instant;
 
@@ -24,7 +25,7 @@ pub(crate) struct Arguments {
 type Step = (&'static str, fn() -> Result<()>);
 
 /// The steps, the quick ones first.
-const STEPS: [Step; 11] = [
+const STEPS: [Step; 12] = [
     ("formatting", formatting),
     ("lints", lints),
     ("documentation", documentation),
@@ -32,6 +33,7 @@ const STEPS: [Step; 11] = [
     ("counter tests", counter_tests),
     ("boards", boards::check),
     ("no path to a panic", no_panic),
+    ("methods apart", methods_apart),
     ("cycles and checksums", same_pixels),
     ("emulated panel", emulated_panel),
     ("emulator tests", emulator_tests),
@@ -120,6 +122,25 @@ fn no_panic() -> Result<()> {
         ensure!(!output.status.success(), "{}: a program with a path to a panic was linked", target.triple);
         let complaint = String::from_utf8_lossy(&output.stderr);
         ensure!(complaint.contains("a_path_leads_to_a_panic"), "{}: it failed in another way:\n{complaint}", target.triple);
+    }
+    Ok(())
+}
+
+/// That firmware with one shading method holds no instruction of another.
+fn methods_apart() -> Result<()> {
+    for method in ["flat", "gouraud"] {
+        let [target, ..] = &TARGETS;
+        let elf = firmware::build(MEASURE, target.triple, &["firmware", SCENE, method])?;
+        // The file of a function of the library's shading; types have capitals.
+        let shading = |name: &String| {
+            let (file, _) = name.split_once("beamshade::shade::")?.1.split_once("::")?;
+            file.chars().all(|c| c.is_ascii_lowercase() || c == '_').then(|| file.to_owned())
+        };
+        let ranges = elf.ranges(|names| names.iter().find_map(shading))?;
+        let found: BTreeSet<_> = ranges.into_iter().map(|(_, _, file)| file).collect();
+        let expected = BTreeSet::from([method.replace('-', "_")]);
+        ensure!(found == expected, "firmware with {method} holds code of {found:?}");
+        eprintln!("{method}: {} bytes of flash", elf.flash_bytes());
     }
     Ok(())
 }
