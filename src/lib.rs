@@ -9,7 +9,8 @@
 //! 3. [`Frame`]: once a frame. `begin(camera, lights)`, then `add(mesh, pose)` for each object: transforms, lights, culls, clips,
 //!    and sorts the triangles into buckets by the line on which they start.
 //! 4. [`Scanner`]: once a line. Takes in the triangles that start, steps the ones that are there, resolves who is seen where, and
-//!    makes the line's span table.
+//!    makes the line's span table: shaded into a row at once, by [`Lines::line`] or, with smooth silhouettes, [`Lines::smooth_line`];
+//!    or kept for later, a line [`Baked`], a whole picture [`Frozen`].
 //! 5. [`shade`]: one file for each method, behind one trait. The default, [`shade::duff_barycentric`], is exact Phong shading for
 //!    a few additions, products and look-ups a pixel.
 //! 6. [`sink`]: pixel encodings, palettes, dither, the overlay, and frames to any embedded-graphics display, whole or what of them
