@@ -28,8 +28,8 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>
 {
     /// As [`line`](Lines::line), with the edges that end a surface blended with what is seen behind them, by the area of the pixel
-    /// that they leave (*Faster Phong Shading*, §3.6). An edge between two triangles of one surface stays as it is, and so does
-    /// the line where surfaces cut each other.
+    /// that they leave (*Faster Phong Shading*, §3.6), and so the lines where surfaces cut each other. An edge between two triangles of
+    /// one surface stays as it is.
     ///
     /// A pixel is blended before it becomes ink, and stored once. Behind an edge lies what is seen next to it, shaded as far as
     /// the edge reaches. What falls between the centres of two lines stays missed, and so does an edge over
@@ -50,7 +50,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
         }
         let background = self.background(y);
         let (list, facets) = self.scene();
-        let cuts = Edges { list }.cuts(&spans, width, background.is_some());
+        let cuts = Edges { list, y }.cuts(&spans, width, background.is_some());
         let row = Row::new(row.get_mut(..width).unwrap_or_default(), background);
         let seen = Seen { picture: self.picture(), facets, spans: &spans, y: y.into(), background };
         let mut smoothing = Smoothing::<P, S, ACTIVE, LIGHTS, L> { seen, row };
@@ -98,6 +98,7 @@ struct Cut {
 /// The triangles that cross a line, and the edges at which spans end.
 struct Edges<'a, const ACTIVE: usize> {
     list: &'a ActiveList<ACTIVE>,
+    y: u16,
 }
 
 impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
@@ -122,7 +123,10 @@ impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
                 let [left, right] = [self.own(last, true), self.own(span, false)];
                 let is_inside = matches!((left, right), (Some(left), Some(right)) if left.is_near(right));
                 if !is_inside {
-                    let edge = self.end(last, true).or_else(|| self.end(span, false));
+                    let [left, right] = [self.end(last, true), self.end(span, false)];
+                    let is_behind = right.is_some() && self.nearness(last) < self.nearness(span);
+                    let edge = if is_behind { right } else { left.or(right) };
+                    let edge = edge.or_else(|| self.crossing(last, span));
                     add(edge, span.start(), [Some(last_place), place]);
                 }
             } else if over_background {
@@ -136,6 +140,17 @@ impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
             before = place.zip(span);
         }
         cuts
+    }
+
+    /// How near a triangle is as a whole.
+    fn nearness(&self, span: Span) -> i32 {
+        self.list.get(span.slot()).map_or(0, |active| active.reach().iter().sum())
+    }
+
+    /// Where the surfaces seen in two spans that meet cut each other.
+    fn crossing(&self, left: Span, right: Span) -> Option<Silhouette> {
+        let pair = [self.list.get(left.slot())?, self.list.get(right.slot())?];
+        Silhouette::crossing(pair, right.start() - 1, self.y)
     }
 
     /// An edge of the triangle that is seen in a span, if the span ends there.

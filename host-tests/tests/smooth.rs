@@ -72,7 +72,7 @@ fn errors(truth: &Sampled, levels: impl Iterator<Item = f64>) -> [f64; 2] {
     [mean(|d| d * d).sqrt(), mean(|d| d)]
 }
 
-/// Of what a picture without smoothing is off at silhouettes, smooth lines leave a quarter; four samples a pixel leave a third.
+/// Of what a picture without smoothing is off at silhouettes, smooth lines leave a fifth; four samples a pixel leave a third.
 #[test]
 fn silhouettes_are_better_than_by_four_samples() {
     let mesh = teapot_880().unwrap();
@@ -91,8 +91,8 @@ fn silhouettes_are_better_than_by_four_samples() {
         }
     }
     let [plain, smooth, four] = sums;
-    assert!(smooth[1] < four[1] * 0.7 && smooth[1] < plain[1] * 0.25, "{smooth:?} {four:?} {plain:?}");
-    assert!(smooth[0] < four[0] * 1.02 && smooth[0] < plain[0] * 0.36, "{smooth:?} {four:?} {plain:?}");
+    assert!(smooth[1] < four[1] * 0.63 && smooth[1] < plain[1] * 0.22, "{smooth:?} {four:?} {plain:?}");
+    assert!(smooth[0] < four[0] * 0.94 && smooth[0] < plain[0] * 0.33, "{smooth:?} {four:?} {plain:?}");
 }
 
 /// Away from silhouettes nothing changes.

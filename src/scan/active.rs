@@ -174,6 +174,12 @@ impl Active {
         at.wrapping_add(dx.wrapping_mul(x)).wrapping_add(dy.wrapping_mul(line as i32))
     }
 
+    /// The increase of the nearness for a pixel to the right, and down.
+    pub(crate) const fn depth_steps(&self) -> [i32; 2] {
+        let [_, dx, dy] = self.depth;
+        [dx, dy]
+    }
+
     /// The increase of the nearness for a pixel to the right.
     #[inline]
     pub(crate) const fn depth_step(&self) -> i32 {

@@ -1,7 +1,10 @@
 //! How an edge cuts the pixels of a line.
 
-use super::edge::Edge;
-use crate::math::{reciprocal::Reciprocal, screen::SUBPIXELS};
+use super::{active::Active, edge::Edge};
+use crate::math::{
+    reciprocal::Reciprocal,
+    screen::{center, SUBPIXELS},
+};
 
 /// An edge that a surface ends at, on one line: area sampling, *Faster Phong Shading* §3.6.
 ///
@@ -35,7 +38,29 @@ impl Silhouette {
 
     /// An edge that stands on the line.
     pub(crate) fn new(edge: &Edge) -> Self {
-        let [at, step] = edge.on_line();
+        Self::along(edge.on_line())
+    }
+
+    /// Where two surfaces cut each other between a pixel, where the left one is in front, and the next one; none if they do not.
+    ///
+    /// Their depths are planes, so that they cut along a straight line: where the lead of the left one ends.
+    pub(crate) fn crossing([left, right]: [&Active; 2], pixel: i32, line: u16) -> Option<Self> {
+        let ([left_x, left_y], [right_x, right_y]) = (left.depth_steps(), right.depth_steps());
+        let (x, y) = (left_x.wrapping_sub(right_x), left_y.wrapping_sub(right_y));
+        let lead = left.depth_at(pixel, line).wrapping_sub(right.depth_at(pixel, line));
+        if !left.deep || !right.deep || x >= 0 || lead < 0 || lead > x.saturating_neg() {
+            return None;
+        }
+        let reciprocal = Reciprocal::of(x.unsigned_abs());
+        let subpixels = |depth: i32| {
+            let product = (i64::from(depth) * i64::from(reciprocal.mantissa)) >> (54 - reciprocal.zeros);
+            product.clamp(i64::from(-Self::BROADEST), i64::from(Self::BROADEST)) as i32
+        };
+        Some(Self::along([center(pixel) + subpixels(lead), subpixels(y)]))
+    }
+
+    /// An edge there that goes so far to the right from line to line, in subpixels.
+    fn along([at, step]: [i32; 2]) -> Self {
         let breadth = step.saturating_abs().min(Self::BROADEST);
         let inverse = if breadth > Self::VERTICAL {
             let reciprocal = Reciprocal::of(breadth as u32);
