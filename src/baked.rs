@@ -71,7 +71,9 @@ impl<const SPANS: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSourc
                 _ => &dressed.insert((span.material, P::paint(span.material))).1,
             };
             let surface = Surface { material: span.material, intensities: &self.intensities };
-            S::run(span.registers, &surface, row.span(start, end), paint);
+            if let Some(pixels) = row.span(start, end) {
+                S::run(span.registers, &surface, pixels, paint);
+            }
         }
         row.finish();
     }

@@ -146,7 +146,9 @@ impl<
                 _ => &dressed.insert((*material, P::paint(material))).1,
             };
             let surface = Surface { material, intensities: &self.intensities };
-            S::run(S::start(facet, start as i32, y.into()), &surface, row.span(start, end), paint);
+            if let Some(pixels) = row.span(start, end) {
+                S::run(S::start(facet, start as i32, y.into()), &surface, pixels, paint);
+            }
         }
         row.finish();
     }

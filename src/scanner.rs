@@ -383,7 +383,9 @@ impl<'m: 'a, 'a, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSourc
     #[inline(always)]
     fn span(&mut self, span: Span, facet: &S::Facet, _: &Active) {
         let Range { start, end } = span.range();
-        shade::<P, S, LIGHTS, L>(&self.dressed, facet, start as i32, self.row.span(start, end));
+        if let Some(pixels) = self.row.span(start, end) {
+            shade::<P, S, LIGHTS, L>(&self.dressed, facet, start as i32, pixels);
+        }
     }
 }
 

@@ -216,7 +216,7 @@ impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: L
                     self.seen.colors(span, x, here.get_mut(..to - x).unwrap_or_default());
                     self.seen.colors(other.map(usize::from), x, there.get_mut(..to - x).unwrap_or_default());
                     let [left, right] = if is_left { [here, there] } else { [there, here] };
-                    let pixels = self.row.span(x, to).iter_mut().zip(x as i32..);
+                    let pixels = self.row.span(x, to).unwrap_or_default().iter_mut().zip(x as i32..);
                     for ((pixel, x), (left, right)) in pixels.zip(left.into_iter().zip(right)) {
                         *pixel = P::plain(left.mixed(right, cut.edge.right(x)));
                     }
@@ -225,7 +225,12 @@ impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: L
                 _ => {
                     if let Some((facet, surface)) = span.and_then(|span| self.seen.span(span)) {
                         let paint = P::paint(surface.material);
-                        S::run(S::start(facet, x as i32, self.seen.y), &surface, self.row.span(x, from), &paint);
+                        S::run(
+                            S::start(facet, x as i32, self.seen.y),
+                            &surface,
+                            self.row.span(x, from).unwrap_or_default(),
+                            &paint,
+                        );
                     }
                     x = from;
                 }

@@ -360,6 +360,11 @@ fn power() {
         }
         assert_eq!(power.at(u32::MAX), power.at(1 << 31), "{exponent}");
         assert!(power.at(0) == 0, "{exponent}");
+        // Before the first place that shows all are fainter, from there on none is.
+        let first = power.first(Power::FAINT);
+        assert!((0..512).all(|place| (power.entry(place) < Power::FAINT) == (place < first)), "{exponent}");
+        assert_eq!(power.first(Power::FAINT - 1), 0);
+        assert_eq!(power.at_height(Power::height_of(first)), power.entry(first), "{exponent}");
         // A height is a cosine, from the start on, in a unit of its own.
         for cosine in (0..=1_u32 << 31).step_by(9_999_991) {
             let height = (i64::from(cosine) - i64::from(power.start())) << power.zeros() >> 2;

@@ -12,6 +12,8 @@ pub struct Power {
     exponent: u16,
     /// The table covers cosines over a width of 2⁻ᵏ.
     zeros: u8,
+    /// The first place in the table where the power reaches [`FAINT`](Self::FAINT).
+    faint: u16,
     /// The cosine at which the power begins to show, Q31.
     start: u32,
     table: [u16; Power::ENTRIES],
@@ -23,6 +25,8 @@ impl Power {
     const ONE: u32 = 1 << 31;
     /// One, as the power in Q14.
     const PEAK: u16 = 1 << 14;
+    /// What is too little for formats of few bits, as the power in Q14: 1/128.
+    pub const FAINT: u32 = 1 << 7;
 
     /// Tabulates `cosⁿ` for n = `exponent`; 0 counts as 1. Integers only, so it costs the same at compile time and on a chip.
     #[must_use]
@@ -43,15 +47,20 @@ impl Power {
         let start = Self::ONE - entries * width;
         let mut table = [Self::PEAK; Self::ENTRIES];
         table[0] = 0;
+        let mut faint = 1;
         let mut i = 1;
         while i < entries {
+            let power = (Self::exact(start + i * width + width / 2, exponent) + (1 << 15)) >> 16;
+            if power < Self::FAINT {
+                faint = i as u16 + 1;
+            }
             #[expect(clippy::indexing_slicing, reason = "i < ENTRIES; slice::get is not const")]
             {
-                table[i as usize] = ((Self::exact(start + i * width + width / 2, exponent) + (1 << 15)) >> 16) as u16;
+                table[i as usize] = power as u16;
             }
             i += 1;
         }
-        Self { exponent, zeros: zeros as u8, start, table }
+        Self { exponent, zeros: zeros as u8, faint, start, table }
     }
 
     /// `cosⁿ` in Q30 by repeated squaring; `cos` is Q31, at most one.
@@ -103,7 +112,39 @@ impl Power {
         if cos <= self.start {
             return 0;
         }
+        self.entry((cos - self.start) >> self.shift())
+    }
+
+    /// A place in the table before which the power is less than that, Q14.
+    #[inline(always)]
+    #[must_use]
+    pub const fn first(&self, least: u32) -> u32 {
+        if least >= Self::FAINT {
+            self.faint as u32
+        } else {
+            0
+        }
+    }
+
+    /// The height of a place in the table.
+    #[inline(always)]
+    #[must_use]
+    pub const fn height_of(place: u32) -> i32 {
+        (place << 20) as i32
+    }
+
+    /// Of what a Q31 cosine is above [`start`](Self::start), how far it is to be shifted down for the place in the table.
+    #[inline(always)]
+    #[must_use]
+    pub fn shift(&self) -> u32 {
         // 22 bits are left of a width of 2⁻ᵏ.
-        self.table.get(((cos - self.start) >> (22 - self.zeros)) as usize).copied().unwrap_or(Self::PEAK).into()
+        u32::from(22 - self.zeros) & 31
+    }
+
+    /// `cosⁿ` in Q14 at a place in the table; beyond it, one.
+    #[inline(always)]
+    #[must_use]
+    pub fn entry(&self, place: u32) -> u32 {
+        self.table.get(place as usize).copied().unwrap_or(Self::PEAK).into()
     }
 }

@@ -76,13 +76,19 @@ impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
         self.made.get(usize::from(TriangleId::MADE.wrapping_sub(id.0))).map_or(id, |made| made.whole)
     }
 
+    /// The last object that does not begin too late, as the first one never does.
+    #[inline(always)]
+    fn last(&self, begins: impl Fn(&Object<'_>) -> bool) -> Option<&'f Object<'m>> {
+        match self.objects {
+            [only] => Some(only),
+            many => many.iter().rev().find(|object| begins(object)),
+        }
+    }
+
     /// The object of a mesh's triangle, and the number of the triangle in the mesh.
     #[inline]
     pub(crate) fn object(&self, whole: TriangleId) -> Option<(&'f Object<'m>, u16)> {
-        let object = match self.objects {
-            [only] => only,
-            many => many.iter().rev().find(|object| object.first_triangle <= whole.0)?,
-        };
+        let object = self.last(|object| object.first_triangle <= whole.0)?;
         Some((object, whole.0.wrapping_sub(object.first_triangle)))
     }
 
@@ -95,8 +101,8 @@ impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
     /// The material with that number among those of all objects.
     #[inline]
     pub(crate) fn material(&self, look: u16) -> Option<&'m Material> {
-        let object = self.objects.iter().rev().find(|object| object.first_material <= look)?;
-        object.mesh.data().materials.get(usize::from(look - object.first_material))
+        let object = self.last(|object| object.first_material <= look)?;
+        object.mesh.data().materials.get(usize::from(look.wrapping_sub(object.first_material)))
     }
 
     /// A triangle's numbers.

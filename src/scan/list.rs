@@ -55,11 +55,10 @@ impl<const N: usize> ActiveList<N> {
     pub(crate) fn advance<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, '_, L>) -> u16 {
         let free = self.free;
         self.step(line.into(), geometry.vertices);
-        if self.free == free {
-            self.sort();
-        } else {
-            self.sort_those_left();
+        if self.free != free {
+            self.order.retain(|span| !span.is_none());
         }
+        self.sort();
         self.enter(line, geometry)
     }
 
@@ -96,29 +95,6 @@ impl<const N: usize> ActiveList<N> {
                 before = span;
             }
         }
-    }
-
-    /// The same where some ended, which are let go.
-    #[inline(never)]
-    fn sort_those_left(&mut self) {
-        let places = Cell::from_mut(self.order.as_mut_slice()).as_slice_of_cells();
-        let mut free = places.iter();
-        let mut before = Span::LEFTMOST;
-        for place in places {
-            let span = place.get();
-            if span.is_none() {
-                continue;
-            }
-            let Some(place) = free.next() else { break };
-            place.set(span);
-            if before.is_after(span) {
-                sink(places.get(..places.len() - free.len()).unwrap_or_default());
-            } else {
-                before = span;
-            }
-        }
-        let left = places.len() - free.len();
-        self.order.truncate(left);
     }
 
     /// Takes in the triangles that start on line `line`. Returns the number of those left out.

@@ -105,7 +105,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
     fn run<P>(r: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         let power = &surface.material.power;
         match r.cosines {
-            Along::Gentle(mut cosines) if r.shiny && shows(&cosines, pixels.len()) => {
+            Along::Gentle(mut cosines) if r.shiny && shows(&cosines, pixels.len(), first::<LIGHTS>(power, paint.least())) => {
                 for pixel in pixels {
                     let mut intensity = Intensity::default();
                     for ([diffuse, height], strength) in cosines.iter_mut().zip(surface.intensities) {
@@ -129,15 +129,26 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
     }
 }
 
-/// Whether a highlight can show on so many pixels.
+/// The first place in a power's table that shows, if less light than that does not; that of several lights may sum up.
 #[inline(always)]
-fn shows<const LIGHTS: usize>(cosines: &[[Differences; 2]; LIGHTS], pixels: usize) -> bool {
-    cosines.iter().any(|[_, height]| height.most(pixels as i32 - 1) > 0)
+const fn first<const LIGHTS: usize>(power: &Power, least: u32) -> u32 {
+    if LIGHTS > 1 {
+        0
+    } else {
+        power.first(least)
+    }
+}
+
+/// Whether a highlight can show on so many pixels, given that place.
+#[inline(always)]
+fn shows<const LIGHTS: usize>(cosines: &[[Differences; 2]; LIGHTS], pixels: usize, first: u32) -> bool {
+    cosines.iter().any(|[_, height]| height.most(pixels as i32 - 1) >= Power::height_of(first))
 }
 
 /// Whether the power can show anywhere on the triangle, given its largest edge constant and what its product with h may reach.
 pub(super) fn is_shiny(most: i32, edge: u32, power: &Power) -> bool {
-    most_cosine(most, edge) > power.start() >> 2
+    // N·H itself first: 1/|N| is one at least.
+    most > (power.start() >> 17) as i32 || most_cosine(most, edge) > power.start() >> 2
 }
 
 /// At least as much as N·H/|N| reaches on the triangle, Q29, one at most, given the same.
@@ -264,17 +275,23 @@ impl<const LIGHTS: usize, N: Steps> Steep<LIGHTS, N, Differences> {
         pixels: &mut [P],
         paint: &impl Paint<P>,
     ) {
-        let power = &surface.material.power;
         let lit = |product| lit(product, L::Product::FINER);
         let Self { mut dots, mut bend } = self;
         if shiny {
+            // Most of these pixels show no highlight: no more is done for them than to find that out.
+            let power = &surface.material.power;
+            let (start, shift, intensities) = (power.start(), power.shift(), *surface.intensities);
+            let from = start + (first::<LIGHTS>(power, paint.least()) << shift);
             for pixel in pixels {
                 let root = inverse_root(bend.next());
                 let mut intensity = Intensity::default();
-                for ([diffuse, specular], strength) in dots.iter_mut().zip(surface.intensities) {
+                for ([diffuse, specular], strength) in dots.iter_mut().zip(intensities) {
                     // Q16 · Q15: cosines in Q31.
                     intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;
-                    intensity.specular += (power.at(lit(specular.next()).wrapping_mul(root)) * u32::from(*strength)) >> 15;
+                    let cos = lit(specular.next()).wrapping_mul(root);
+                    if cos >= from {
+                        intensity.specular += (power.entry((cos - start) >> shift) * u32::from(strength)) >> 15;
+                    }
                 }
                 *pixel = paint.mix(intensity.limited(LIGHTS));
             }

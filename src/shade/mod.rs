@@ -66,6 +66,12 @@ pub trait Paint<P> {
     /// The pixel for that much light.
     fn mix(&self, intensity: Intensity) -> P;
 
+    /// Less specular light than this, Q14, changes no pixel.
+    #[inline(always)]
+    fn least(&self) -> u32 {
+        1
+    }
+
     /// The pixel for diffuse light alone, Q14.
     #[inline(always)]
     fn dull(&self, diffuse: u32) -> P {

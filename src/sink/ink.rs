@@ -146,11 +146,14 @@ const ABOVE: u32 = 1 << 31 | 1 << 20 | 1 << 9;
 /// Their levels, without the four bits below.
 const LEVELS: u32 = 0x7e0 << 16 | 0xf81f;
 
+/// The least specular light that Rgb565 shows: a step of its tables, Q14.
+const LEAST: u32 = 1 << 7;
+
 /// Rgb565 for that much light.
 #[inline(always)]
 fn rgb565(material: &Material, intensity: Intensity) -> u16 {
     // Both are below 2.
-    if intensity.specular >> 7 == 0 {
+    if intensity.specular < LEAST {
         return at(&material.ramp, intensity.diffuse);
     }
     let mut sum = at(&material.dull, intensity.diffuse).wrapping_add(at(&material.gloss, intensity.specular));
@@ -183,6 +186,11 @@ impl Ink for Rgb565 {
 
 impl Paint<Rgb565> for &Material {
     #[inline(always)]
+    fn least(&self) -> u32 {
+        LEAST
+    }
+
+    #[inline(always)]
     fn mix(&self, intensity: Intensity) -> Rgb565 {
         Rgb565::from(RawU16::new(rgb565(self, intensity)))
     }
@@ -207,6 +215,11 @@ impl Ink for [u8; 2] {
 }
 
 impl Paint<[u8; 2]> for &Material {
+    #[inline(always)]
+    fn least(&self) -> u32 {
+        LEAST
+    }
+
     #[inline(always)]
     fn mix(&self, intensity: Intensity) -> [u8; 2] {
         rgb565(self, intensity).to_be_bytes()

@@ -18,14 +18,15 @@ impl<'r, P: Ink> Row<'r, P> {
         Self { pixels, from: 0, background }
     }
 
-    /// The pixels of a span that lies right of all before it, to be stored now; the background up to it is.
+    /// The pixels of a span that lies right of all before it, to be stored now; the background up to it is. None if there are
+    /// no such pixels.
     #[inline(always)]
-    pub(crate) fn span(&mut self, start: usize, end: usize) -> &mut [P] {
+    pub(crate) fn span(&mut self, start: usize, end: usize) -> Option<&mut [P]> {
         if self.from < start {
             self.fill(start);
         }
         self.from = end;
-        self.pixels.get_mut(start..end).unwrap_or_default()
+        self.pixels.get_mut(start..end)
     }
 
     /// Stores what is left.
@@ -45,13 +46,15 @@ impl<'r, P: Ink> Row<'r, P> {
     }
 }
 
-/// Fills pixels with the background.
+/// Fills pixels with the background, two at a time where the processor stores a word at any place.
 #[inline(never)]
 fn fill<P: Ink>(pixels: &mut [P], color: Color) {
     let pixel = P::plain(color);
     let mut eights = pixels.chunks_exact_mut(8);
     for eight in &mut eights {
-        eight.fill(pixel);
+        for pair in eight.chunks_exact_mut(2) {
+            pair.copy_from_slice(&[pixel; 2]);
+        }
     }
     eights.into_remainder().fill(pixel);
 }
