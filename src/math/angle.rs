@@ -88,10 +88,18 @@ impl Turn {
 /// `1 − s/a·(1 − s/b·(1 − s/c·(1 − s/d)))` in Q30.
 const fn series(square: i64, [a, b, c, d]: [i64; 4]) -> i64 {
     const ONE: i64 = 1 << 30;
-    let inner = ONE - square / d;
-    let inner = ONE - mul(square, inner) / c;
-    let inner = ONE - mul(square, inner) / b;
-    ONE - mul(square, inner) / a
+    let inner = ONE - part(square, d);
+    let inner = ONE - part(mul(square, inner), c);
+    let inner = ONE - part(mul(square, inner), b);
+    ONE - part(mul(square, inner), a)
+}
+
+/// A quotient that cannot panic, even where the compiler does not see that the divisor is a constant.
+const fn part(whole: i64, parts: i64) -> i64 {
+    match whole.checked_div(parts) {
+        Some(part) => part,
+        None => 0,
+    }
 }
 
 const fn mul(a: i64, b: i64) -> i64 {
