@@ -38,7 +38,7 @@ pub struct Scanner<
 > {
     list: ActiveList<ACTIVE>,
     facets: [S::Facet; ACTIVE],
-    table: Table<ACTIVE>,
+    table: Table,
     visibility: V,
 }
 

@@ -32,6 +32,9 @@ impl Vector {
     }
 
     /// The scalar product, Q30; wraps beyond ±2.
+    ///
+    /// A function of its own: in 64 bits it is long on small processors, and a frame's objects need many.
+    #[inline(never)]
     #[must_use]
     pub fn dot(self, other: Self) -> i32 {
         let ([a, b, c], [d, e, f]) = (self.0.map(i64::from), other.0.map(i64::from));

@@ -41,7 +41,7 @@ impl<const WIDTH: usize> Visibility for DepthLine<WIDTH> {
         width: i32,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table<N>,
+        table: &mut Table,
         mut see: impl FnMut(&[Span], &mut [Active; N]),
     ) {
         let (extents, slots) = list.split();

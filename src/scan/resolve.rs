@@ -25,7 +25,7 @@ impl Visibility for Spanning {
         width: i32,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table<N>,
+        table: &mut Table,
         see: impl FnMut(&[Span], &mut [Active; N]),
     ) {
         Sweep::new(line, width).run(list, geometry, table, see);
@@ -63,7 +63,7 @@ impl<const N: usize> Sweep<N> {
         mut self,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table<N>,
+        table: &mut Table,
         mut see: impl FnMut(&[Span], &mut [Active; N]),
     ) {
         let (extents, slots) = list.split();
@@ -121,7 +121,7 @@ impl<const N: usize> Sweep<N> {
         extents: &[Span],
         slots: &mut [Active; N],
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table<N>,
+        table: &mut Table,
     ) {
         let Self { width, mut x, mut next, .. } = *self;
         // What is nearer than this is in front of all open ones.

@@ -88,14 +88,17 @@ impl Span {
     }
 }
 
-/// Disjoint spans of one line, left to right, none of them empty, gaps showing the background.
+/// Spans that are handed on at once.
+const SPANS: usize = 16;
+
+/// Some disjoint spans of one line, left to right, none of them empty, gaps showing the background.
 #[derive(Clone, Debug)]
-pub struct Table<const SPANS: usize> {
+pub struct Table {
     spans: [Span; SPANS],
     count: usize,
 }
 
-impl<const SPANS: usize> Table<SPANS> {
+impl Table {
     pub(crate) const fn new() -> Self {
         Self { spans: [Span { pixels: 0, source: 0 }; SPANS], count: 0 }
     }

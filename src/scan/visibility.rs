@@ -28,7 +28,7 @@ pub trait Visibility: Sized {
         width: i32,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table<N>,
+        table: &mut Table,
         see: impl FnMut(&[Span], &mut [Active; N]),
     );
 }
