@@ -89,7 +89,7 @@ impl<'m, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: Light
     Lines<'_, 'm, ACTIVE, S, LIGHTS, L, V>
 {
     /// Bakes line y: all but the shading of [`line`](Lines::line), which [`Baked::shade`] does later. A y below the picture makes
-    /// an empty line of no pixels.
+    /// an empty line of no pixels. It knows no transparency: [transparent](Material::opacity) triangles are opaque in it.
     #[inline(never)]
     pub fn bake<const SPANS: usize>(&mut self, y: u16, table: &mut Baked<'m, SPANS, S, LIGHTS, L>) -> Line {
         table.spans.clear();

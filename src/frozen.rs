@@ -130,7 +130,7 @@ impl<
     }
 
     /// Shades line y into the row, as [`Lines::line`] does: every pixel stored once, from left to right. A y below the picture
-    /// leaves the row alone.
+    /// leaves the row alone. It knows no transparency: [transparent](Material::opacity) triangles are opaque in it.
     pub fn line<P: Ink>(&self, y: u16, row: &mut [P]) {
         let Some(spans) = self.spans(y) else { return };
         let [width, height] = self.size;

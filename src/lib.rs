@@ -9,7 +9,8 @@
 //! 3. [`Frame`]: once a frame. `begin(camera, lights)`, then `add(mesh, pose)` for each object: transforms, lights, culls, clips,
 //!    and sorts the triangles into buckets by the line on which they start.
 //! 4. [`Scanner`]: once a line. Takes in the triangles that start, steps the ones that are there, resolves who is seen where, and
-//!    makes the line's span table: shaded into a row at once, by [`Lines::line`] or, with smooth silhouettes, [`Lines::smooth_line`];
+//!    makes the line's span table: shaded into a row at once, by [`Lines::line`] or, with smooth silhouettes, [`Lines::smooth_line`],
+//!    or, with transparent surfaces, [`Lines::transparent_line`];
 //!    or kept for later, a line [`Baked`], a whole picture [`Frozen`].
 //! 5. [`shade`]: one file for each method, behind one trait. The default, [`shade::duff_barycentric`], is exact Phong shading for
 //!    a few additions, products and look-ups a pixel.
@@ -76,10 +77,12 @@ pub mod math;
 pub mod model;
 pub mod scan;
 pub mod scanner;
+pub(crate) mod seen;
 pub mod shade;
 pub mod sink;
 pub(crate) mod smooth;
 pub mod split;
+pub(crate) mod transparent;
 
 pub use baked::Baked;
 pub use frame::{Frame, Full};

@@ -121,7 +121,8 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
     /// what fits. A y below the picture leaves the row alone.
     ///
     /// The next line costs a step of each active triangle; a later one that for each line in between, without shading; an
-    /// earlier one the walk from the top again. The pixels are the same in whatever order.
+    /// earlier one the walk from the top again. The pixels are the same in whatever order. [Transparent](Material::opacity)
+    /// triangles are opaque in it.
     #[inline(never)]
     pub fn line<P: Ink>(&mut self, y: u16, row: &mut [P]) -> Line {
         if !self.seek(y) {
@@ -135,8 +136,7 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
             row.finish();
             return self.none();
         };
-        let surface = Surface { material, intensities };
-        let shading = Shading { row, dressed: Dressed { y: y.into(), surface, paint: P::paint(material) } };
+        let shading = Shading { row, dressed: Dressed::new(y.into(), material, intensities) };
         let (line, shading) = self.walk(y, width, material, shading);
         shading.row.finish();
         line
@@ -159,9 +159,19 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         });
     }
 
-    /// The triangles that cross the line, and the facets of those that are seen, by their slots.
-    pub(crate) const fn scene(&self) -> (&ActiveList<ACTIVE>, &[S::Facet; ACTIVE]) {
-        (&self.scanner.list, &self.scanner.facets)
+    /// The triangles that cross the line.
+    pub(crate) const fn list(&self) -> &ActiveList<ACTIVE> {
+        &self.scanner.list
+    }
+
+    /// The same, to be changed for a while.
+    pub(crate) const fn list_mut(&mut self) -> &mut ActiveList<ACTIVE> {
+        &mut self.scanner.list
+    }
+
+    /// The facets of the triangles that are seen, by their slots.
+    pub(crate) const fn facets(&self) -> &[S::Facet; ACTIVE] {
+        &self.scanner.facets
     }
 
     /// The picture.
@@ -207,7 +217,7 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         (Line { spans: walk.spans, facets: walk.made, bent: walk.bent, ..line }, walk.to)
     }
 
-    /// The triangle that is seen at a pixel of the picture; none for the background, and outside of the picture.
+    /// The triangle that is seen at a pixel of the picture, transparent or not; none for the background, and outside of the picture.
     ///
     /// There is no buffer of numbers: the line is resolved once more, at the cost of [`line`](Self::line) without shading, in
     /// whatever order. So "the smallest pick primitive becomes a visible surface and not a pixel" (*Faster Phong Shading*, §1).
@@ -364,11 +374,18 @@ struct Shading<'a, 'm, 'r, P: Ink, const LIGHTS: usize> {
 }
 
 /// A material made ready for a line.
-struct Dressed<'a, 'm, P: Ink, const LIGHTS: usize> {
+pub(crate) struct Dressed<'a, 'm, P: Ink, const LIGHTS: usize> {
     /// The line.
     y: i32,
     surface: Surface<'a, LIGHTS>,
     paint: P::Paint<'m>,
+}
+
+impl<'m: 'a, 'a, P: Ink, const LIGHTS: usize> Dressed<'a, 'm, P, LIGHTS> {
+    #[inline(always)]
+    pub(crate) fn new(y: i32, material: &'m Material, intensities: &'a [u16; LIGHTS]) -> Self {
+        Self { y, surface: Surface { material, intensities }, paint: P::paint(material) }
+    }
 }
 
 impl<'m: 'a, 'a, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
@@ -391,7 +408,7 @@ impl<'m: 'a, 'a, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSourc
 
 /// Shades one span.
 #[inline(never)]
-fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
+pub(crate) fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
     dressed: &Dressed<'_, '_, P, LIGHTS>,
     facet: &S::Facet,
     x: i32,

@@ -5,16 +5,11 @@ use core::ops::Range;
 use heapless::Vec;
 
 use crate::{
-    model::{
-        light::LightSource,
-        material::{Color, Material},
-    },
-    scan::{
-        active::Active, edge::Edge, list::ActiveList, picture::Picture, silhouette::Silhouette, table::Span,
-        visibility::Visibility,
-    },
-    scanner::{Line, Lines, Take},
-    shade::{Shade, Surface},
+    model::{light::LightSource, material::Color},
+    scan::{edge::Edge, list::ActiveList, silhouette::Silhouette, table::Span, visibility::Visibility},
+    scanner::{Line, Lines},
+    seen::Seen,
+    shade::Shade,
     sink::{ink::Ink, row::Row},
 };
 
@@ -35,51 +30,33 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     /// the edge reaches. What falls between the centres of two lines stays missed, and so does an edge over
     /// [`Background::Keep`](crate::Background::Keep), whose colours are not known. Shallow edges reach beyond what is
     /// [`covered`](Lines::covered). Takes 8 bytes of stack for each of `ACTIVE`
-    /// spans, and about 1 kB; a line of more spans than that stays as it is.
+    /// spans, and about 1 kB; a line of more spans than that stays as it is, and so do pixels that [do not blend](Ink::BLENDS).
+    /// [Transparent](crate::Material::opacity) triangles are opaque in it.
     #[inline(never)]
     pub fn smooth_line<P: Ink>(&mut self, y: u16, row: &mut [P]) -> Line {
         if !self.seek(y) {
             return self.none();
         }
         let width = self.width().min(row.len());
-        let Some(material) = self.first_material() else { return self.line(y, row) };
-        let (line, Gathering { spans, has_all }) =
-            self.walk(y, width, material, Gathering::<ACTIVE> { spans: Vec::new(), has_all: true });
-        if !has_all {
+        let mut spans = Vec::new();
+        let (line, until) = self.gather(y, 0..width, &mut spans);
+        if until < width || !P::BLENDS {
             return self.line(y, row);
         }
         let background = self.background(y);
-        let (list, facets) = self.scene();
-        let cuts = Edges { list, y }.cuts(&spans, width, background.is_some());
+        let cuts = Edges { list: self.list(), y }.cuts(&spans, width, background.is_some());
         let row = Row::new(row.get_mut(..width).unwrap_or_default(), background);
-        let seen = Seen { picture: self.picture(), facets, spans: &spans, y: y.into(), background };
-        let mut smoothing = Smoothing::<P, S, ACTIVE, LIGHTS, L> { seen, row };
+        let mut smoothing = Smoothing { seen: self.seen(y), spans: &spans, row };
         let (mut cuts, mut x) = (cuts.as_slice(), 0);
-        for (place, span) in spans.iter().enumerate() {
+        for span in &spans {
             let Range { start, end } = span.range();
             smoothing.store(x..start, None, &mut cuts);
-            smoothing.store(start..end, Some(place), &mut cuts);
+            smoothing.store(start..end, Some(span), &mut cuts);
             x = end;
         }
         smoothing.store(x..width, None, &mut cuts);
         smoothing.row.finish();
         line
-    }
-}
-
-/// The spans of a line on their way to be looked at together.
-struct Gathering<const ACTIVE: usize> {
-    spans: Vec<Span, ACTIVE>,
-    has_all: bool,
-}
-
-impl<'m, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
-    for Gathering<ACTIVE>
-{
-    fn dress(&mut self, _: &'m Material) {}
-
-    fn span(&mut self, span: Span, _: &S::Facet, _: &Active) {
-        self.has_all &= self.spans.push(span).is_ok();
     }
 }
 
@@ -185,6 +162,7 @@ impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
 /// A line on its way into a row.
 struct Smoothing<'a, 'f, 'm, 'r, P, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
     seen: Seen<'a, 'f, 'm, S, ACTIVE, LIGHTS, L>,
+    spans: &'a [Span],
     row: Row<'r, P>,
 }
 
@@ -192,7 +170,7 @@ impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: L
     Smoothing<'_, '_, '_, '_, P, S, ACTIVE, LIGHTS, L>
 {
     /// Stores pixels that show a span, or the background, and what cuts them.
-    fn store(&mut self, pixels: Range<usize>, span: Option<usize>, cuts: &mut &[Cut]) {
+    fn store(&mut self, pixels: Range<usize>, span: Option<&Span>, cuts: &mut &[Cut]) {
         let Range { start: mut x, end } = pixels;
         while x < end {
             let cut = loop {
@@ -211,10 +189,10 @@ impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: L
                         to = to.min(cut.at.into());
                     }
                     let [left, right] = cut.sides;
-                    let other = if is_left { right } else { left };
+                    let other = if is_left { right } else { left }.and_then(|place| self.spans.get(usize::from(place)));
                     let (mut here, mut there) = ([Color::BLACK; PIECE], [Color::BLACK; PIECE]);
                     self.seen.colors(span, x, here.get_mut(..to - x).unwrap_or_default());
-                    self.seen.colors(other.map(usize::from), x, there.get_mut(..to - x).unwrap_or_default());
+                    self.seen.colors(other, x, there.get_mut(..to - x).unwrap_or_default());
                     let [left, right] = if is_left { [here, there] } else { [there, here] };
                     let pixels = self.row.span(x, to).unwrap_or_default().iter_mut().zip(x as i32..);
                     for ((pixel, x), (left, right)) in pixels.zip(left.into_iter().zip(right)) {
@@ -223,47 +201,12 @@ impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: L
                     x = to;
                 }
                 _ => {
-                    if let Some((facet, surface)) = span.and_then(|span| self.seen.span(span)) {
-                        let paint = P::paint(surface.material);
-                        S::run(
-                            S::start(facet, x as i32, self.seen.y),
-                            &surface,
-                            self.row.span(x, from).unwrap_or_default(),
-                            &paint,
-                        );
+                    if let Some(span) = span {
+                        self.seen.shade(span, x, self.row.span(x, from).unwrap_or_default());
                     }
                     x = from;
                 }
             }
         }
-    }
-}
-
-/// What is seen on a line.
-struct Seen<'a, 'f, 'm, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
-    picture: &'a Picture<'f, 'm, LIGHTS, L>,
-    facets: &'a [S::Facet; ACTIVE],
-    spans: &'a [Span],
-    y: i32,
-    background: Option<Color>,
-}
-
-impl<'a, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> Seen<'a, '_, '_, S, ACTIVE, LIGHTS, L> {
-    /// What a span, or the background, is like at those pixels, in it or beside it.
-    #[inline(never)]
-    fn colors(&self, span: Option<usize>, x: usize, colors: &mut [Color]) {
-        if let Some((facet, surface)) = span.and_then(|span| self.span(span)) {
-            let paint = Color::paint(surface.material);
-            S::run(S::start(facet, x as i32, self.y), &surface, colors, &paint);
-        } else if let Some(background) = self.background {
-            colors.fill(background);
-        }
-    }
-
-    /// The facet of a span, and its surface.
-    fn span(&self, span: usize) -> Option<(&'a S::Facet, Surface<'a, LIGHTS>)> {
-        let span = self.spans.get(span)?;
-        let material = self.picture.geometry.material(span.look())?;
-        Some((self.facets.get(usize::from(span.slot()))?, Surface { material, intensities: self.picture.intensities }))
     }
 }

@@ -88,6 +88,7 @@ fn surface(material: &reference::Material) -> Result<Surface> {
         specular: material.specular,
         exponent: material.exponent as u16,
         double_sided: material.double_sided,
+        opacity: material.opacity,
     })
 }
 
@@ -264,4 +265,21 @@ pub fn read_by<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: u
         });
     }
     picture
+}
+
+/// The same by lines that know transparency, with the opaque triangle of each pixel, be it behind a transparent one or not.
+pub fn read_transparent<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource, V: Visibility>(
+    lines: &mut Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>,
+) -> (Picture<P>, Vec<Option<Owner>>) {
+    let mut picture = read_by(lines);
+    let mut opaque = vec![None; picture.owner.len()];
+    let rows = picture.color.chunks_mut(picture.width).zip(opaque.chunks_mut(picture.width));
+    for ((row, opaque), y) in rows.zip(0..) {
+        row.fill(P::plain(Color::BLACK));
+        lines.transparent_line(y, row);
+        lines.opaque_spans(y, |span, source| {
+            opaque[usize::from(span.start)..usize::from(span.end)].fill(Some(owner(source)));
+        });
+    }
+    (picture, opaque)
 }

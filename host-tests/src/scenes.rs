@@ -21,10 +21,14 @@ pub const ORANGE: Material = Material {
     specular: 0.5,
     exponent: 32.0,
     double_sided: false,
+    opacity: 1.0,
 };
 
 /// The same in white, for grey output: its three channels are equal.
 pub const WHITE: Material = Material { base: [1.0; 3], ..ORANGE };
+
+/// Glass, seen from both sides.
+pub const GLASS: Material = Material { base: [0.3, 0.6, 1.0], exponent: 20.0, double_sided: true, opacity: 0.4, ..ORANGE };
 
 /// Vertical, in degrees.
 const FIELD_OF_VIEW: f64 = 40.0;
@@ -63,6 +67,34 @@ pub fn standard(mesh: &Mesh, material: Material, frame: u32) -> Scene<'_> {
         }],
         background: [0.0; 3],
     }
+}
+
+/// A pane of glass before the standard scene's teapot: its scale, its place, and by what it is turned about y, in radians.
+pub const BEFORE: (f64, [f64; 3], f64) = (0.3, [0.15, 0.1, 1.0], 0.3);
+/// Two through it, and through each other.
+pub const THROUGH: [(f64, [f64; 3], f64); 2] = [(0.8, [0.1, 0.0, 0.1], 0.5), (0.7, [0.0; 3], -0.6)];
+
+/// The teapot of the standard scene and up to two [panes](shapes::pane) such as these.
+#[must_use]
+pub fn with_panes<'m>(teapot: &'m Mesh, pane: &'m Mesh, panes: &[(f64, [f64; 3], f64)]) -> Scene<'m> {
+    let mut scene = standard(teapot, ORANGE, 5);
+    scene.background = [0.1, 0.2, 0.1];
+    let object = |(opacity, (scale, place, turn)): (f64, &(f64, [f64; 3], f64))| {
+        let pose = Pose { rotation: DMat3::from_rotation_y(*turn), scale: *scale, translation: DVec3::from_array(*place) };
+        Object { mesh: pane, materials: vec![Material { opacity, ..GLASS }], pose }
+    };
+    scene.objects.extend([0.4, 0.7].into_iter().zip(panes).map(object));
+    scene
+}
+
+/// That teapot, of glass, around a ball.
+#[must_use]
+pub fn of_glass<'m>(teapot: &'m Mesh, ball: &'m Mesh) -> Scene<'m> {
+    let mut scene = standard(teapot, Material { double_sided: false, ..GLASS }, 5);
+    scene.background = [0.1, 0.2, 0.1];
+    let pose = Pose { scale: 0.3, translation: DVec3::new(0.0, -0.05, 0.0), ..Pose::IDENTITY };
+    scene.objects.push(Object { mesh: ball, materials: vec![ORANGE], pose });
+    scene
 }
 
 /// What a case shows.

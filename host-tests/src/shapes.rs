@@ -58,6 +58,13 @@ fn icosahedron(corners: &[DVec3]) -> Vec<[u32; 3]> {
     all.filter(face).collect()
 }
 
+/// A square of side 2 in the xy plane, its normals towards +z.
+#[must_use]
+pub fn pane() -> Mesh {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
+    Mesh::new(corners.to_vec(), vec![DVec3::Z; 4], vec![[0, 1, 2], [0, 2, 3]])
+}
+
 /// One triangle in the xy plane with its corners on the unit circle, the first at the top, and normals that lean outwards by that
 /// angle in radians.
 #[must_use]

@@ -60,6 +60,7 @@ impl Options {
             specular: self.specular.unwrap_or(surface.specular),
             exponent: self.exponent.unwrap_or(surface.exponent),
             double_sided: self.double_sided || surface.double_sided,
+            opacity: surface.opacity,
             name: surface.name,
         }
     }

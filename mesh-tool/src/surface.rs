@@ -24,6 +24,8 @@ pub struct Surface {
     pub exponent: u16,
     /// Back faces are seen too.
     pub double_sided: bool,
+    /// Opacity, 0 to 1; transparent below 1.
+    pub opacity: f64,
 }
 
 impl Default for Surface {
@@ -38,6 +40,7 @@ impl Default for Surface {
             specular: 0.5,
             exponent: 32,
             double_sided: false,
+            opacity: 1.0,
         }
     }
 }
@@ -51,7 +54,20 @@ impl Surface {
         let [br, bg, bb] = self.base.map(q15);
         let [hr, hg, hb] = self.highlight.map(q15);
         let [ambient, diffuse, specular] = [self.ambient, self.diffuse, self.specular].map(q15);
-        [br, bg, bb, hr, hg, hb, ambient, diffuse, specular, self.exponent, self.double_sided.into(), 0]
+        [
+            br,
+            bg,
+            bb,
+            hr,
+            hg,
+            hb,
+            ambient,
+            diffuse,
+            specular,
+            self.exponent,
+            self.double_sided.into(),
+            (1 << 15) - q15(self.opacity),
+        ]
     }
 
     /// The quantised material.
@@ -62,7 +78,7 @@ impl Surface {
     /// A const expression for the quantised material. A Q15 word over 32768 is an f32 without rounding, and is printed so
     /// that it reads back as the same f32.
     pub(crate) fn rust(&self) -> String {
-        let [br, bg, bb, hr, hg, hb, factors @ .., exponent, _, _] = self.words();
+        let [br, bg, bb, hr, hg, hb, factors @ .., exponent, _, clearness] = self.words();
         let [ambient, diffuse, specular] = factors.map(|word| f32::from(word) / 32768.0);
         let mut rust = format!(
             "beamshade::Material::new(beamshade::Color([{br}, {bg}, {bb}])).highlight(beamshade::Color([{hr}, {hg}, {hb}]))\
@@ -70,6 +86,9 @@ impl Surface {
         );
         if self.double_sided {
             let _ = write!(rust, ".double_sided()");
+        }
+        if clearness > 0 {
+            let _ = write!(rust, ".opacity({:?})", 1.0 - f32::from(clearness) / 32768.0);
         }
         rust
     }

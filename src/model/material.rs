@@ -24,7 +24,8 @@ impl Color {
     #[must_use]
     pub(crate) fn mixed(mut self, Color(other): Self, share: i32) -> Self {
         for (channel, other) in self.0.iter_mut().zip(other) {
-            *channel = ((i32::from(*channel) * (256 - share) + i32::from(other) * share + 128) >> 8) as u16;
+            let own = i32::from(*channel);
+            *channel = (own + (((i32::from(other) - own) * share + 128) >> 8)) as u16;
         }
         self
     }
@@ -52,6 +53,14 @@ const fn factor(value: f32) -> u16 {
     } else {
         scaled
     }
+}
+
+/// The opacity that hides all, Q8.
+const OPAQUE: u16 = 1 << 8;
+
+/// Q15 to Q8, rounded.
+const fn q8(factor: u16) -> u16 {
+    (factor + (1 << 6)) >> 7
 }
 
 /// The nearest level of `base · light`, base in Q15, light in Q23, one being `largest`.
@@ -109,6 +118,8 @@ pub struct Material {
     pub(crate) specular: u16,
     pub(crate) double_sided: bool,
     pub(crate) plain: bool,
+    /// Q8: 256 hides all that is behind.
+    pub(crate) opacity: u16,
     pub(crate) power: Power,
     /// The same power as parabolas, refit and as printed.
     pub(crate) parabolas: [PiecewisePower; 2],
@@ -138,6 +149,7 @@ impl Material {
             specular: factor(0.5),
             double_sided: false,
             plain: false,
+            opacity: OPAQUE,
             power: Power::new(32),
             parabolas: parabolas(32),
             ramp: [0; Self::STEPS],
@@ -296,14 +308,38 @@ impl Material {
         self
     }
 
+    /// The same with that opacity, 0.0 to 1.0, clamped and rounded to 1/256. Below one the surface is transparent: a pixel is
+    /// `opacity · its shaded colour + (1 − opacity) · what is behind`, before it becomes ink. ("Transparent polygons are of course
+    /// allowed", *Faster Phong Shading*, §3.6.)
+    ///
+    /// One level: of several transparent triangles before the nearest opaque one, or before the background, the nearest alone is
+    /// seen. Only [`Lines::transparent_line`](crate::Lines::transparent_line) knows of it: in all other lines, be they smooth, baked,
+    /// frozen or handed to a display, the surface is opaque.
+    ///
+    /// ```
+    /// # use beamshade::{Color, Material};
+    /// static GLASS: Material = Material::new(Color::rgb(0.6, 0.8, 1.0)).opacity(0.4);
+    /// ```
+    #[must_use]
+    pub const fn opacity(mut self, opacity: f32) -> Self {
+        self.opacity = q8(factor(opacity));
+        self
+    }
+
+    /// Whether what is behind it is seen.
+    #[inline]
+    pub(crate) const fn is_transparent(&self) -> bool {
+        self.opacity < OPAQUE
+    }
+
     /// Number of 16-bit words of a material in a mesh's binary form.
     pub const WORDS: usize = 12;
 
     /// A material from the words of a mesh's binary form: base 3, highlight 3, ambient, diffuse, specular (all Q15),
-    /// exponent, flags (bit 0: double-sided, bit 1: plain), 0. Factors above one are clamped.
+    /// exponent, flags (bit 0: double-sided, bit 1: plain), 1 − [opacity](Self::opacity) in Q15. Factors above one are clamped.
     #[must_use]
     pub fn from_words(words: [u16; Self::WORDS]) -> Self {
-        let [br, bg, bb, hr, hg, hb, ambient, diffuse, specular, exponent, flags, _] = words;
+        let [br, bg, bb, hr, hg, hb, ambient, diffuse, specular, exponent, flags, clearness] = words;
         let clamp = |factor: u16| factor.min(1 << 15);
         Self {
             base: Color([br, bg, bb].map(clamp)),
@@ -313,6 +349,7 @@ impl Material {
             specular: clamp(specular),
             double_sided: flags & 1 == 1,
             plain: flags & 2 == 2,
+            opacity: q8((1 << 15) - clamp(clearness)),
             power: Power::new(exponent),
             parabolas: parabolas(exponent),
             ramp: [0; Self::STEPS],

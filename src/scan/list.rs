@@ -49,6 +49,11 @@ impl<const N: usize> ActiveList<N> {
         self.slots.get(usize::from(slot))
     }
 
+    /// The extents, of which some may be taken out, if all are put back before the next line.
+    pub(crate) const fn extents_mut(&mut self) -> &mut Vec<Span, N> {
+        &mut self.order
+    }
+
     /// On to line `line`, the next one: steps all, lets go of those that ended, takes in those that start. Returns the number
     /// of triangles left out for want of room.
     #[inline(never)]

@@ -15,6 +15,9 @@ pub trait Ink: Copy {
     /// Makes a material ready.
     fn paint(material: &Material) -> Self::Paint<'_>;
 
+    /// Whether [`plain`](Self::plain) has a pixel for any colour; if not, transparent surfaces are opaque, and silhouettes are not smoothed.
+    const BLENDS: bool = true;
+
     /// The pixel of a colour as it is.
     fn plain(color: Color) -> Self;
 }

@@ -145,6 +145,9 @@ impl<const COLORS: usize> Ink for Indexed<COLORS> {
         Ramp { places: &material.places, shares: [share, (1 << 15) - share], first: (first << 16) + (1 << 15), step: steps * 257 }
     }
 
+    /// There is no number for a colour between two.
+    const BLENDS: bool = false;
+
     fn plain(_: Color) -> Self {
         Self(0)
     }

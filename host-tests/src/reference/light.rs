@@ -64,6 +64,8 @@ pub struct Material {
     pub exponent: f64,
     /// Seen from behind too, under turned normals.
     pub double_sided: bool,
+    /// Share of its own colour in what is seen, 0 to 1; the rest is what lies behind. Below 1 the surface is transparent.
+    pub opacity: f64,
 }
 
 /// The lights of a scene, and those who look.
@@ -117,6 +119,7 @@ mod tests {
         specular: 0.5,
         exponent: 2.0,
         double_sided: false,
+        opacity: 1.0,
     };
 
     fn assert_near(actual: [f64; 3], expected: [f64; 3]) {

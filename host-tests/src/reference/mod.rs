@@ -19,5 +19,5 @@ pub use by_polygon::{by_polygon, Polygon};
 pub use edge_list::EdgeList;
 pub use light::{Light, Material, Source, Viewer};
 pub use mesh::Mesh;
-pub use render::{render, Normals, Options};
+pub use render::{render, render_opaque, Normals, Options};
 pub use scene::{Camera, Object, Pose, Scene};

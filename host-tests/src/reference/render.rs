@@ -37,11 +37,44 @@ const DEPTH_TIE: f64 = 1e-12;
 /// triangle's corners; normals are interpolated over each of the two pieces. A triangle without area on the screen draws
 /// nothing. Of equally near triangles the lower (object, triangle) is seen.
 ///
+/// Opaque and transparent triangles are drawn apart. Where the nearest transparent one is in front of the nearest opaque one, or of
+/// the background, the pixel is its colour over that one's, and its own; transparent ones behind it are not seen.
+///
 /// # Panics
 ///
 /// When a triangle refers to a vertex or a material that is not there.
 #[must_use]
 pub fn render(scene: &Scene, options: Options) -> Picture<[f64; 3]> {
+    let Canvas { picture: mut front, nearness, .. } = draw(scene, options, |material| material.opacity == 1.0);
+    let clear = draw(scene, options, |material| material.opacity < 1.0);
+    for (pixel, owner) in clear.picture.owner.iter().enumerate() {
+        let Some(owner) = *owner else { continue };
+        let (near, behind) = (clear.nearness[pixel], nearness[pixel]);
+        let tie = (near - behind).abs() <= behind * DEPTH_TIE;
+        let is_front = if tie { front.owner[pixel].is_none_or(|other| owner < other) } else { near > behind };
+        if is_front {
+            let object = &scene.objects[owner.object as usize];
+            let opacity = object.materials[object.mesh.materials[owner.triangle as usize]].opacity;
+            let (own, other) = (clear.picture.color[pixel], front.color[pixel]);
+            front.color[pixel] = [0, 1, 2].map(|channel| opacity * own[channel] + (1.0 - opacity) * other[channel]);
+            front.owner[pixel] = Some(owner);
+        }
+    }
+    front
+}
+
+/// The same without transparent triangles.
+///
+/// # Panics
+///
+/// As [`render`].
+#[must_use]
+pub fn render_opaque(scene: &Scene, options: Options) -> Picture<[f64; 3]> {
+    draw(scene, options, |material| material.opacity == 1.0).picture
+}
+
+/// Draws the triangles of such materials.
+fn draw<'a>(scene: &'a Scene, options: Options, is_drawn: impl Fn(&Material) -> bool) -> Canvas<'a> {
     let camera = &scene.camera;
     let mut canvas = Canvas {
         picture: Picture::blank(camera.width, camera.height, scene.background),
@@ -53,6 +86,9 @@ pub fn render(scene: &Scene, options: Options) -> Picture<[f64; 3]> {
     for (object, number) in scene.objects.iter().zip(0..) {
         let corners = corners(scene, object);
         for ((triangle, &material), index) in object.mesh.triangles.iter().zip(&object.mesh.materials).zip(0..) {
+            if !is_drawn(&object.materials[material]) {
+                continue;
+            }
             let polygon = clip_near(triangle.map(|vertex| corners[vertex as usize]), camera.near);
             for second in 2..polygon.len() {
                 let piece = [polygon[0], polygon[second - 1], polygon[second]];
@@ -61,7 +97,7 @@ pub fn render(scene: &Scene, options: Options) -> Picture<[f64; 3]> {
             }
         }
     }
-    canvas.picture
+    canvas
 }
 
 /// The vertices of an object, positions in view space, normals in the world.

@@ -48,6 +48,7 @@ fn round() -> impl Strategy<Value = Round> {
             specular,
             exponent: exponent.into(),
             double_sided,
+            opacity: 1.0,
         },
     );
     let pose = (rotations(), 0.3..1.2, uniform3(-1.0..1.0)).prop_map(|(rotation, scale, translation)| Pose {

@@ -13,6 +13,7 @@ mod sinks;
 mod split;
 mod tables;
 mod total;
+mod transparent;
 mod visibility;
 
 use proptest::test_runner::{Config, RngSeed};

@@ -20,8 +20,16 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
+/// Number of opaque materials; each has a transparent one like it, so much further on.
+pub(crate) const OPAQUE: u16 = 4;
+
 /// One of each kind: one- and double-sided, glossy and matte, saturating, plain for [`Choose`](beamshade::Choose).
-static MATERIALS: [Material; 4] = [
+static MATERIALS: [Material; 2 * OPAQUE as usize] = {
+    let [a, b, c, d] = OPAQUE_MATERIALS;
+    [a, b, c, d, a.opacity(0.4), b.opacity(0.75), c.opacity(0.1), d.opacity(0.9)]
+};
+
+const OPAQUE_MATERIALS: [Material; OPAQUE as usize] = [
     Material::new(Color::rgb(0.85, 0.45, 0.20)),
     Material::new(Color::rgb(0.2, 0.6, 0.9)).double_sided().specular(0.0),
     Material::new(Color::WHITE).ambient(1.0).diffuse(1.0).specular(1.0).exponent(1).plain(),

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use base64::prelude::{Engine, BASE64_STANDARD};
 use gltf::accessor::{DataType, Dimensions};
+use gltf::material::AlphaMode;
 use gltf::mesh::Mode;
 use gltf::{buffer, Accessor, Document, Gltf, Node, Primitive};
 
@@ -66,10 +67,11 @@ fn multiply(a: Transform, b: Transform) -> Transform {
 }
 
 /// The base colour is taken as it is. The rougher the surface, the fainter the highlight, and the wider: roughness r is a lobe
-/// of width α = r², as wide as that of the exponent 2/α² − 2 (Karis, *Specular BRDF reference*, 2013). Metals colour it.
+/// of width α = r², as wide as that of the exponent 2/α² − 2 (Karis, *Specular BRDF reference*, 2013). Metals colour it. Alpha
+/// is opacity where the file says that it is to be blended.
 fn surface(material: &gltf::Material) -> Surface {
     let pbr = material.pbr_metallic_roughness();
-    let [red, green, blue, _] = pbr.base_color_factor().map(f64::from);
+    let [red, green, blue, alpha] = pbr.base_color_factor().map(f64::from);
     let [roughness, metallic] = [pbr.roughness_factor(), pbr.metallic_factor()].map(|factor| f64::from(factor).clamp(0.0, 1.0));
     let exponent = (2.0 / roughness.powi(4) - 2.0).round().clamp(1.0, Surface::MAX_EXPONENT);
     let plain = Surface::default();
@@ -80,6 +82,7 @@ fn surface(material: &gltf::Material) -> Surface {
         specular: plain.specular * (1.0 - roughness),
         exponent: exponent as u16,
         double_sided: material.double_sided(),
+        opacity: if material.alpha_mode() == AlphaMode::Blend { alpha } else { 1.0 },
         ..plain
     }
 }

@@ -11,7 +11,7 @@ use crate::vector::{dot, Vector};
 ///
 /// `Kd` is the base colour. `Ks` is the highlight: its strongest channel the coefficient, its hue the colour. `Ka` is what
 /// ambient light finds, so it scales the ambient coefficient by its share of `Kd`, up to 1. `Ns` is the exponent. What is
-/// missing stays as [`Surface::default`] has it; textures, transparency and the like are left out.
+/// missing stays as [`Surface::default`] has it; `d`, or `1 − Tr`, is the opacity; textures and the like are left out.
 pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Vec<Surface>, Error> {
     let mut materials: Vec<Entry> = Vec::new();
     for (line, text) in String::from_utf8_lossy(bytes).trim_start_matches('\u{feff}').lines().enumerate() {
@@ -27,6 +27,7 @@ struct Entry {
     diffuse: Option<Vector>,
     specular: Option<Vector>,
     exponent: Option<f64>,
+    opacity: Option<f64>,
 }
 
 fn read_line(materials: &mut Vec<Entry>, line: &str) -> Result<(), String> {
@@ -35,7 +36,7 @@ fn read_line(materials: &mut Vec<Entry>, line: &str) -> Result<(), String> {
         materials.push(Entry { name: rest.trim().into(), ..Entry::default() });
         return Ok(());
     }
-    if !["Ka", "Kd", "Ks", "Ns"].contains(&keyword) {
+    if !["Ka", "Kd", "Ks", "Ns", "d", "Tr"].contains(&keyword) {
         return Ok(());
     }
     let material = materials.last_mut().ok_or_else(|| format!("`{keyword}` before the first `newmtl`"))?;
@@ -43,9 +44,19 @@ fn read_line(materials: &mut Vec<Entry>, line: &str) -> Result<(), String> {
         "Ka" => material.ambient = Some(color(rest)?),
         "Kd" => material.diffuse = Some(color(rest)?),
         "Ks" => material.specular = Some(color(rest)?),
-        _ => material.exponent = Some(number(rest.split_whitespace().next().unwrap_or_default())?),
+        "Ns" => material.exponent = Some(first(rest)?),
+        // `d -halo`, opaque in the middle alone, is none.
+        "d" if rest.trim_start().starts_with('-') => {}
+        "d" => material.opacity = Some(first(rest)?),
+        // Some write both, and `Tr` the wrong way round.
+        _ => material.opacity = material.opacity.or(Some(1.0 - first(rest)?)),
     }
     Ok(())
+}
+
+/// The first number of what follows a keyword.
+fn first(rest: &str) -> Result<f64, String> {
+    number(rest.split_whitespace().next().unwrap_or_default())
 }
 
 /// Three numbers, or one that stands for all three.
@@ -78,6 +89,9 @@ impl Entry {
         if let Some(exponent) = self.exponent {
             surface.exponent = exponent.round().clamp(1.0, Surface::MAX_EXPONENT) as u16;
         }
+        if let Some(opacity) = self.opacity {
+            surface.opacity = opacity.clamp(0.0, 1.0);
+        }
         surface
     }
 }
@@ -101,6 +115,13 @@ mod tests {
             ..Surface::default()
         };
         assert_eq!(*red, expected);
+    }
+
+    #[test]
+    fn dissolve_and_its_opposite_are_opacity() {
+        let text = b"newmtl a\nd 0.25\nnewmtl b\nTr 0.25\nnewmtl c\nd -halo 0.5\nnewmtl d\nd 7\nTr 0.5\n";
+        let opacities: Vec<_> = read(Path::new("a.mtl"), text).unwrap().iter().map(|surface| surface.opacity).collect();
+        assert_eq!(opacities, [0.25, 0.75, 1.0, 1.0]);
     }
 
     #[test]
