@@ -169,6 +169,30 @@ pub(crate) fn summary() -> Result<String> {
     Ok(totals(&measured, &host(SCENE, METHOD)?))
 }
 
+/// What lines that know transparency cost, without a transparent surface and with one, beside plain lines, for the README.
+///
+/// # Errors
+/// As [`run`] does.
+pub(crate) fn transparent() -> Result<String> {
+    install::ensure(&[Need::FirmwareCompiler, Need::Qemu])?;
+    let [m0, m4, _] = &TARGETS;
+    let mut rows = Vec::new();
+    for (scene, name) in [
+        ("t880", "T880, `line`"),
+        ("t880-transparent", "T880, `transparent_line`"),
+        ("t880-pane", "with a pane, `line`"),
+        ("t880-pane-transparent", "with a pane, `transparent_line`"),
+    ] {
+        let [m0, m4] = [Measured::new(m0, scene, METHOD)?, Measured::new(m4, scene, METHOD)?];
+        ensure!(m0.report.checksum == host(scene, METHOD)?, "{scene} differs from what this machine renders");
+        let mean = m0.counts.mean();
+        let figures = [mean.instructions, mean.cycles, m4.counts.mean().instructions, m0.report.stack_bytes, m0.code_bytes()]
+            .map(table::number);
+        rows.push(std::iter::once(name.to_owned()).chain(figures).collect());
+    }
+    Ok(table::text(&["scene", "instructions M0+", "cycles M0+", "instructions M4F", "stack M0+", "code M0+"], rows))
+}
+
 /// The checksum of the same frames, rendered by this machine.
 fn host(scene: &str, method: &str) -> Result<String> {
     Ok(Report::parse(&on_this_machine(scene, method)?)?.checksum)

@@ -1,9 +1,10 @@
-//! All shading methods in one picture, and their errors in another.
+//! All shading methods in one picture, their errors in another, and transparent surfaces in a third.
 
 use std::convert::Infallible;
 
 use crate::project::{self, progress};
 use anyhow::Result;
+use beamshade::{Light, Scanner};
 use embedded_graphics::mono_font::{ascii::FONT_8X13, MonoTextStyle};
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::*;
@@ -11,14 +12,15 @@ use embedded_graphics::primitives::Rectangle;
 use embedded_graphics::text::{Baseline, Text};
 use host_tests::accuracy::METHODS;
 use host_tests::image;
-use host_tests::library::Meshes;
+use host_tests::library::{self, Meshes};
 use host_tests::reference::{render, Camera, Material, Options, Scene};
-use host_tests::scenes::{Case, Illumination, Subject, ORANGE};
-use host_tests::Picture;
+use host_tests::scenes::{self, Case, Illumination, Subject, ORANGE};
+use host_tests::{shapes, Picture};
 
 /// Draw docs/methods.png, all shading methods side by side, and docs/errors.png, how far each is from the f64 reference, eightfold.
 ///
-/// A tile has the teapot of the standard scene, a sphere of 80 triangles, and one triangle with a highlight inside.
+/// A tile has the teapot of the standard scene, a sphere of 80 triangles, and one triangle with a highlight inside. And
+/// docs/transparent.png: a pane before the teapot, two through it, and a teapot of glass around a ball.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {}
 
@@ -38,6 +40,7 @@ const FACTOR: u32 = 8;
 /// # Errors
 /// If a scene cannot be drawn, or a picture not be written.
 pub(crate) fn run() -> Result<()> {
+    transparent()?;
     let tiles = METHODS.len() as u32 + 1;
     let mut methods = Canvas::new(tiles);
     let mut errors = Canvas::new(tiles);
@@ -63,12 +66,33 @@ pub(crate) fn run() -> Result<()> {
             errors.show(tile, place, &difference(&truth, &drawn), cut);
         }
     }
-    for (name, canvas) in [("methods", methods), ("errors", errors)] {
-        let path = project::root().join("docs").join(name).with_extension("png");
-        image::write(&path, &canvas.picture)?;
-        println!("{}", project::shown(&path));
+    methods.write("methods")?;
+    errors.write("errors")
+}
+
+/// Draws docs/transparent.png.
+fn transparent() -> Result<()> {
+    let mut canvas = Canvas::new(3);
+    canvas.label(0, "f64 reference");
+    canvas.label(1, "transparent_line");
+    canvas.label(2, &format!("how far apart, times {FACTOR}"));
+    let (teapot, pane, ball) = (scenes::teapot_880()?, shapes::pane(), shapes::icosphere(3));
+    let scenes = [
+        scenes::with_panes(&teapot, &pane, &[scenes::BEFORE]),
+        scenes::with_panes(&teapot, &pane, &scenes::THROUGH),
+        scenes::of_glass(&teapot, &ball),
+    ];
+    for ((mut scene, (_, size, cut)), place) in scenes.into_iter().zip(VIEWS).zip(PLACES) {
+        resize(&mut scene, size);
+        let truth = render(&scene, Options::default()).round::<Rgb888>();
+        let (drawn, _) = library::frame::<_, 1, Light>(&scene, &Meshes::of(&scene)?, |picture| {
+            library::read_transparent(&mut Scanner::<1024>::new().start(picture))
+        })?;
+        for (tile, picture) in (0..).zip([&truth, &drawn, &difference(&truth, &drawn)]) {
+            canvas.show(tile, place, picture, cut);
+        }
     }
-    Ok(())
+    canvas.write("transparent")
 }
 
 /// The same scene in a picture of `size` × `size` pixels.
@@ -110,6 +134,13 @@ impl Canvas {
     fn label(&mut self, tile: u32, text: &str) {
         let style = MonoTextStyle::new(&FONT_8X13, Rgb888::WHITE);
         let Ok(_) = Text::with_baseline(text, self.tile(tile), style, Baseline::Top).draw(self);
+    }
+
+    fn write(&self, name: &str) -> Result<()> {
+        let path = project::root().join("docs").join(name).with_extension("png");
+        image::write(&path, &self.picture)?;
+        println!("{}", project::shown(&path));
+        Ok(())
     }
 
     /// Puts a picture there, without `cut` of its rows at top and bottom.

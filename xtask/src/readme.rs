@@ -15,6 +15,7 @@ pub(crate) struct Arguments {
 /// `cargo xtask readme`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     write("README.md", &[("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?), ("bus", bus::text()?)])?;
+    write("README.md", &[("transparent", cycles::transparent()?)])?;
     if arguments.all {
         gallery::run()?;
         // One by one, as each takes long.

@@ -10,7 +10,7 @@ fn main() {
         assert!(scene.prepare(step), "frame {step} has no room");
         let (mut lines, row) = scene.lines();
         for y in 0..Scene::LINES {
-            let line = lines.line(y, row);
+            let line = Scene::shade(&mut lines, y, row);
             assert_eq!(line.dropped, 0, "frame {step}, line {y}");
             sum.row(row);
             all.row(row);

@@ -42,7 +42,7 @@ fn main() -> ! {
             if !cfg!(feature = "parts") {
                 mark::line();
             }
-            let line = lines.line(y, row);
+            let line = Scene::shade(&mut lines, y, row);
             mark::pause();
             fits &= line.dropped == 0;
             sum.row(row);

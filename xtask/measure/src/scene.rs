@@ -1,6 +1,6 @@
 //! The scenes: Newell's teapot of 880 triangles, turning once, in Rgb565.
 
-use beamshade::{Camera, Frame, Lines, Pose, Rotation, Scanner, Turn};
+use beamshade::{Camera, Frame, Line, Lines, Pose, Rotation, Scanner, Turn};
 use embedded_graphics::{
     geometry::Size,
     pixelcolor::{Rgb565, RgbColor},
@@ -145,12 +145,49 @@ use setting::{lights, Source, ACTIVE, FRAMES, LIGHTS, SEEN, SIZE};
 
 const OBJECTS: usize = if cfg!(feature = "three-objects") { 3 } else { 1 };
 
+/// Panes of two triangles before them.
+const PANES: usize = if cfg!(feature = "pane") { 1 } else { 0 };
+
+/// A square, seen from both sides.
+#[cfg(feature = "pane")]
+static PANE: beamshade::Mesh<'static> = {
+    use beamshade::{Color, Material, Mesh, MeshData};
+    const SIDE: i16 = i16::MAX;
+    let data = MeshData {
+        extent: beamshade::Length::ONE,
+        center: [0; 3],
+        radius: u16::MAX,
+        positions: &[[-SIDE, -SIDE, 0], [SIDE, -SIDE, 0], [SIDE, SIDE, 0], [-SIDE, SIDE, 0]],
+        normals: &[[0, 0, 1 << 14]; 4],
+        triangles: &[[0, 1, 2], [0, 2, 3]],
+        edges: &[[0; 3]; 2],
+        parts: &[[2, 0]],
+        materials: &[Material::new(Color::rgb(0.3, 0.6, 1.0)).exponent(20).double_sided().opacity(0.4)],
+    };
+    match Mesh::new(data) {
+        Ok(mesh) => mesh,
+        Err(_) => panic!(),
+    }
+};
+
 /// Room for the parts of split triangles, and for their vertices.
 const MADE: usize = if cfg!(any(feature = "regular-split", feature = "highlight-split")) { 8192 } else { 0 };
 const CORNERS: usize = 2 * MADE;
 
-type TeapotFrame = Frame<'static, { 481 * OBJECTS + CORNERS }, { SEEN + MADE }, SIZE, LIGHTS, OBJECTS, MADE, Source>;
-type TeapotScanner = Scanner<{ ACTIVE + MADE / 16 }, Shading, LIGHTS, Source, Seeing>;
+type TeapotFrame = Frame<
+    'static,
+    { 481 * OBJECTS + 4 * PANES + CORNERS },
+    { SEEN + 2 * PANES + MADE },
+    SIZE,
+    LIGHTS,
+    { OBJECTS + PANES },
+    MADE,
+    Source,
+>;
+/// Triangles that cross a line.
+const CROSS: usize = ACTIVE + 2 * PANES + MADE / 16;
+type TeapotScanner = Scanner<CROSS, Shading, LIGHTS, Source, Seeing>;
+type TeapotLines<'s> = Lines<'s, 's, CROSS, Shading, LIGHTS, Source, Seeing>;
 type Row = [Rgb565; SIZE];
 
 /// A measured scene: all state that rendering it needs, and one row of pixels.
@@ -183,7 +220,17 @@ impl Scene {
         let camera = Camera::new(Size::new(SIZE as u32, SIZE as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
         let turn = Turn::degrees(i32::from(step) * 360 / i32::from(FRAMES));
         let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(turn);
-        self.frame.begin(&camera, &lights()).is_ok() && self.add_all(rotation)
+        self.frame.begin(&camera, &lights()).is_ok() && self.add_all(rotation) && self.add_panes()
+    }
+
+    #[cfg(not(feature = "pane"))]
+    const fn add_panes(&self) -> bool {
+        true
+    }
+
+    #[cfg(feature = "pane")]
+    fn add_panes(&mut self) -> bool {
+        self.frame.add(&PANE, &Pose::turned_y(Turn::degrees(17)).scaled(0.3).at([0.15, 0.1, 1.0])).is_ok()
     }
 
     #[cfg(not(feature = "three-objects"))]
@@ -221,8 +268,18 @@ impl Scene {
     }
 
     /// The lines of the frame that was prepared, and a row for them.
-    pub fn lines(&mut self) -> (Lines<'_, '_, { ACTIVE + MADE / 16 }, Shading, LIGHTS, Source, Seeing>, &mut Row) {
+    pub fn lines(&mut self) -> (TeapotLines<'_>, &mut Row) {
         (self.scanner.start(self.frame.picture()), &mut self.row)
+    }
+
+    /// Shades one of them.
+    #[inline(always)]
+    pub fn shade(lines: &mut TeapotLines<'_>, y: u16, row: &mut Row) -> Line {
+        if cfg!(feature = "transparent") {
+            lines.transparent_line(y, row)
+        } else {
+            lines.line(y, row)
+        }
     }
 }
 
