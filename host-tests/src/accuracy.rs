@@ -237,6 +237,25 @@ fn outcomes(case: Case, methods: &[&Method]) -> Result<Vec<Outcome>> {
     Ok(outcomes)
 }
 
+/// The PSNR in dB of the worst frame of a standard scene in Gray8 against the ideal scene, by each of these methods.
+///
+/// # Errors
+///
+/// When the mesh does not fit the library's formats.
+pub fn worst_db(mesh: &Mesh, methods: &[&Method]) -> Result<Vec<f64>> {
+    let meshes = Meshes::of(&scenes::standard(mesh, WHITE, 0))?;
+    let mut worst = vec![f64::INFINITY; methods.len()];
+    for frame in 0..FRAMES {
+        let scene = scenes::standard(mesh, WHITE, frame);
+        let reference = render(&scene, Options::default()).round::<Gray8>();
+        for (method, worst) in methods.iter().zip(&mut worst) {
+            let drawn = method.draw(Illumination::Directional, &scene, &meshes)?;
+            *worst = worst.min(Measures::between(&reference, &drawn, &scene.triangles()).psnr_db);
+        }
+    }
+    Ok(worst)
+}
+
 /// The worst of several frames, measure by measure, but for `wrong_owner` and `wrong_neighbour`, which are sums.
 #[must_use]
 pub fn worst(rows: &[&Row]) -> Option<Measures> {

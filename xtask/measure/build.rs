@@ -3,14 +3,17 @@
 //! They are handed over here and not in `.cargo/config.toml`: with RUSTFLAGS set in the environment, even empty, the
 //! flags of that file are dropped without a word, and what is linked is an empty program.
 
-use beamshade_mesh::Options;
-use std::{env, fs, path::PathBuf};
+use beamshade_mesh::{Model, Options};
+use std::{
+    env,
+    error::Error,
+    fs,
+    path::{Path, PathBuf},
+};
 
 fn main() {
-    let orange = Options { base: Some([0.85, 0.45, 0.20]), ..Options::default() };
-    if let Err(error) = beamshade_mesh::build("../../examples/models/teapot-880.obj", "TEAPOT", &orange) {
-        panic!("{error}");
-    }
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    mesh(&out).unwrap_or_else(|error| panic!("{error}"));
     println!("cargo:rerun-if-changed=memory-mps2.x");
     println!("cargo:rerun-if-changed=memory-virt.x");
     let target = env::var("TARGET").expect("cargo sets TARGET");
@@ -20,10 +23,70 @@ fn main() {
         riscv if riscv.starts_with("riscv32") => ("memory-virt.x", &["memory.x", "link.x"][..]),
         _ => return,
     };
-    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     fs::copy(memory, out.join("memory.x")).expect("the memory map is beside this file");
     println!("cargo:rustc-link-search={}", out.display());
     for script in scripts {
         println!("cargo:rustc-link-arg-bins=-T{script}");
     }
+}
+
+/// Makes the scene's mesh, in orange, and constants with the numbers of its vertices and triangles.
+fn mesh(out: &Path) -> Result<(), Box<dyn Error>> {
+    let is = |scene: &str| env::var_os(format!("CARGO_FEATURE_{scene}")).is_some();
+    let model = out.join("mesh.obj");
+    if is("I80") {
+        fs::write(&model, icosphere())?;
+    } else {
+        println!("cargo:rerun-if-env-changed=BEAMSHADE_MODEL");
+        let of_growth = env::var("BEAMSHADE_MODEL").ok().filter(|_| is("GROWTH"));
+        let file = if is("T5560") { "teapot-5560.obj" } else { "teapot-880.obj" };
+        let source = of_growth.unwrap_or(format!("../../examples/models/{file}"));
+        println!("cargo:rerun-if-changed={source}");
+        fs::copy(source, &model)?;
+    }
+    let orange = Options { base: Some([0.85, 0.45, 0.20]), ..Options::default() };
+    beamshade_mesh::build(&model, "MESH", &orange)?;
+    let read = Model::load(&model, &orange)?;
+    let (vertices, triangles) = (read.positions.len(), read.triangles.len());
+    let counts = format!("const VERTICES: usize = {vertices};\nconst TRIANGLES: usize = {triangles};\n");
+    Ok(fs::write(out.join("counts.rs"), counts)?)
+}
+
+/// A unit sphere of 80 triangles: an icosahedron, each face of which is divided into four.
+fn icosphere() -> String {
+    let golden = (1.0 + 5_f64.sqrt()) / 2.0;
+    let mut points = Vec::new();
+    for (a, b) in [(-1.0, golden), (1.0, golden), (-1.0, -golden), (1.0, -golden)] {
+        points.extend([[a, b, 0.0], [0.0, a, b], [b, 0.0, a]].map(unit));
+    }
+    let mut text = String::new();
+    for a in 0..12 {
+        for (b, c) in (a + 1..12).flat_map(|b| (a + 1..12).map(move |c| (b, c))) {
+            let [p, q, r] = [a, b, c].map(|corner| points[corner]);
+            // Neighbours are 63° apart, all others more than 90°; counter-clockwise seen from outside.
+            if b != c && dot(p, q) > 0.0 && dot(q, r) > 0.0 && dot(r, p) > 0.0 && dot(p, cross(q, r)) > 0.0 {
+                let middle = |a: [f64; 3], b: [f64; 3]| unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
+                let (pq, qr, rp) = (middle(p, q), middle(q, r), middle(r, p));
+                for triangle in [[p, pq, rp], [pq, q, qr], [rp, qr, r], [pq, qr, rp]] {
+                    for [x, y, z] in triangle {
+                        text += &format!("v {x:.6} {y:.6} {z:.6}\nvn {x:.6} {y:.6} {z:.6}\n");
+                    }
+                    text += "f -3//-3 -2//-2 -1//-1\n";
+                }
+            }
+        }
+    }
+    text
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    v.map(|c| c / dot(v, v).sqrt())
 }

@@ -1,4 +1,4 @@
-//! The scenes: Newell's teapot of 880 triangles, turning once, in Rgb565.
+//! The scenes: Newell's teapot of 880 triangles or another mesh, turning once, in Rgb565.
 
 use beamshade::{Camera, Frame, Line, Lines, Pose, Rotation, Scanner, Turn};
 use embedded_graphics::{
@@ -6,7 +6,8 @@ use embedded_graphics::{
     pixelcolor::{Rgb565, RgbColor},
 };
 
-include!(concat!(env!("OUT_DIR"), "/teapot-880.rs"));
+include!(concat!(env!("OUT_DIR"), "/mesh.rs"));
+include!(concat!(env!("OUT_DIR"), "/counts.rs"));
 
 #[cfg(feature = "phong")]
 type Method = beamshade::Phong;
@@ -49,22 +50,52 @@ type Shading = crate::parts::Parts<Method>;
 type Shading = Method;
 
 #[cfg(feature = "depth-line")]
-type Seeing = beamshade::DepthLine<SIZE>;
+type Seeing = beamshade::DepthLine<WIDTH>;
 #[cfg(not(feature = "depth-line"))]
 type Seeing = beamshade::Spanning;
 
-/// T880: 240×240 pixels, one directional light.
-#[cfg(any(feature = "t880", feature = "t880-parts"))]
+/// T880: 240×240 pixels, one directional light; the same at 320×240 pixels, with finer meshes, and with a sphere of 80 triangles that
+/// fills the picture.
+#[cfg(any(
+    feature = "t880",
+    feature = "t880-parts",
+    feature = "t880-320",
+    feature = "t5560",
+    feature = "i80",
+    feature = "growth"
+))]
 mod setting {
     use beamshade::Light;
 
     pub(super) type Source = Light;
     pub(super) const LIGHTS: usize = 1;
-    pub(super) const SIZE: usize = 240;
-    pub(super) const FRAMES: u16 = if cfg!(feature = "parts") { 4 } else { 60 };
+    pub(super) const WIDTH: usize = if cfg!(feature = "t880-320") { 320 } else { HEIGHT };
+    pub(super) const HEIGHT: usize = if cfg!(feature = "growth") { size() } else { 240 };
+    pub(super) const FRAMES: u16 = match () {
+        _ if cfg!(feature = "parts") => 4,
+        _ if cfg!(feature = "growth") => 12,
+        _ => 60,
+    };
     /// Triangles that face the eye in the worst frame, and that cross the worst line.
-    pub(super) const SEEN: usize = 488;
-    pub(super) const ACTIVE: usize = 65;
+    pub(super) const SEEN: usize = match () {
+        _ if cfg!(any(feature = "i80", feature = "growth")) => super::TRIANGLES,
+        _ if cfg!(feature = "t5560") => 2974,
+        _ => 488,
+    };
+    pub(super) const ACTIVE: usize = match () {
+        _ if cfg!(feature = "growth") => 384,
+        _ if cfg!(feature = "t5560") => 167,
+        _ => 65,
+    };
+
+    /// The number in the variable BEAMSHADE_SIZE of the build, or 240.
+    const fn size() -> usize {
+        let Some(text) = option_env!("BEAMSHADE_SIZE") else { return 240 };
+        match usize::from_str_radix(text, 10) {
+            Ok(size) => size,
+            Err(_) => panic!("BEAMSHADE_SIZE is no number"),
+        }
+    }
 
     pub(super) fn lights() -> [Light; LIGHTS] {
         [Light::directional([-0.5, 0.7, 0.6])]
@@ -78,7 +109,8 @@ mod setting {
 
     pub(super) type Source = Light;
     pub(super) const LIGHTS: usize = 1;
-    pub(super) const SIZE: usize = 240;
+    pub(super) const WIDTH: usize = 240;
+    pub(super) const HEIGHT: usize = 240;
     pub(super) const FRAMES: u16 = 60;
     pub(super) const SEEN: usize = 3 * 488;
     pub(super) const ACTIVE: usize = 3 * 65;
@@ -95,7 +127,8 @@ mod setting {
 
     pub(super) type Source = Light;
     pub(super) const LIGHTS: usize = 4;
-    pub(super) const SIZE: usize = 240;
+    pub(super) const WIDTH: usize = 240;
+    pub(super) const HEIGHT: usize = 240;
     pub(super) const FRAMES: u16 = 12;
     pub(super) const SEEN: usize = 488;
     pub(super) const ACTIVE: usize = 65;
@@ -113,7 +146,8 @@ mod setting {
 
     pub(super) type Source = SceneLight;
     pub(super) const LIGHTS: usize = 1;
-    pub(super) const SIZE: usize = 240;
+    pub(super) const WIDTH: usize = 240;
+    pub(super) const HEIGHT: usize = 240;
     pub(super) const FRAMES: u16 = if cfg!(feature = "parts") { 4 } else { 12 };
     pub(super) const SEEN: usize = 488;
     pub(super) const ACTIVE: usize = 65;
@@ -130,7 +164,8 @@ mod setting {
 
     pub(super) type Source = SceneLight;
     pub(super) const LIGHTS: usize = 4;
-    pub(super) const SIZE: usize = if cfg!(feature = "adaptive-256") { 256 } else { 512 };
+    pub(super) const WIDTH: usize = if cfg!(feature = "adaptive-256") { 256 } else { 512 };
+    pub(super) const HEIGHT: usize = WIDTH;
     pub(super) const FRAMES: u16 = 60;
     pub(super) const SEEN: usize = 488;
     pub(super) const ACTIVE: usize = 65;
@@ -141,7 +176,7 @@ mod setting {
     }
 }
 
-use setting::{lights, Source, ACTIVE, FRAMES, LIGHTS, SEEN, SIZE};
+use setting::{lights, Source, ACTIVE, FRAMES, HEIGHT, LIGHTS, SEEN, WIDTH};
 
 const OBJECTS: usize = if cfg!(feature = "three-objects") { 3 } else { 1 };
 
@@ -176,9 +211,9 @@ const CORNERS: usize = 2 * MADE;
 
 type TeapotFrame = Frame<
     'static,
-    { 481 * OBJECTS + 4 * PANES + CORNERS },
+    { VERTICES * OBJECTS + 4 * PANES + CORNERS },
     { SEEN + 2 * PANES + MADE },
-    SIZE,
+    HEIGHT,
     LIGHTS,
     { OBJECTS + PANES },
     MADE,
@@ -188,7 +223,7 @@ type TeapotFrame = Frame<
 const CROSS: usize = ACTIVE + 2 * PANES + MADE / 16;
 type TeapotScanner = Scanner<CROSS, Shading, LIGHTS, Source, Seeing>;
 type TeapotLines<'s> = Lines<'s, 's, CROSS, Shading, LIGHTS, Source, Seeing>;
-type Row = [Rgb565; SIZE];
+type Row = [Rgb565; WIDTH];
 
 /// A measured scene: all state that rendering it needs, and one row of pixels.
 #[derive(Debug)]
@@ -202,22 +237,22 @@ impl Scene {
     /// Frames that are measured: a whole turn.
     pub const FRAMES: u16 = FRAMES;
     /// Lines of a frame.
-    pub const LINES: u16 = SIZE as u16;
+    pub const LINES: u16 = HEIGHT as u16;
     /// Bytes of the mesh, which lies in flash and does not count as code.
-    pub const MESH_BYTES: usize = 481 * 12 + 880 * 12 + 4;
+    pub const MESH_BYTES: usize = VERTICES * 12 + TRIANGLES * 12 + 4;
     /// What lies in RAM, by type, with its size in bytes.
     pub const RAM: &'static [(&'static str, usize)] =
         &[("Frame", size_of::<TeapotFrame>()), ("Scanner", size_of::<TeapotScanner>()), ("rows", 2 * size_of::<Row>())];
 
     /// A scene of which no frame was prepared yet.
     pub const fn new() -> Self {
-        Scene { frame: Frame::new(), scanner: Scanner::new(), row: [Rgb565::BLACK; SIZE] }
+        Scene { frame: Frame::new(), scanner: Scanner::new(), row: [Rgb565::BLACK; WIDTH] }
     }
 
     /// All that is done once for a frame; false if something had no room.
     #[inline(never)]
     pub fn prepare(&mut self, step: u16) -> bool {
-        let camera = Camera::new(Size::new(SIZE as u32, SIZE as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
+        let camera = Camera::new(Size::new(WIDTH as u32, HEIGHT as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
         let turn = Turn::degrees(i32::from(step) * 360 / i32::from(FRAMES));
         let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(turn);
         self.frame.begin(&camera, &lights()).is_ok() && self.add_all(rotation) && self.add_panes()
@@ -235,7 +270,8 @@ impl Scene {
 
     #[cfg(not(feature = "three-objects"))]
     fn add_all(&mut self, rotation: Rotation) -> bool {
-        self.add(&Pose::turned(rotation))
+        let pose = Pose::turned(rotation);
+        self.add(&if cfg!(feature = "i80") { pose.scaled(1.25) } else { pose })
     }
 
     /// The teapot thrice, close to each other, the second one turned over and the third one on its side.
@@ -249,7 +285,7 @@ impl Scene {
 
     #[cfg(not(any(feature = "regular-split", feature = "highlight-split")))]
     fn add(&mut self, pose: &Pose) -> bool {
-        self.frame.add(&TEAPOT, pose).is_ok()
+        self.frame.add(&MESH, pose).is_ok()
     }
 
     /// Triangles are split where a highlight may lie.
@@ -259,7 +295,7 @@ impl Scene {
         let split = beamshade::Regular { pixels: 32 };
         #[cfg(feature = "highlight-split")]
         let split = beamshade::AtHighlight::new(0.3);
-        let splits = self.frame.add_split(&TEAPOT, pose, &split);
+        let splits = self.frame.add_split(&MESH, pose, &split);
         #[cfg(feature = "host")]
         if let Ok(beamshade::Splits { chosen, split, parts, no_room }) = splits {
             std::println!("split {chosen} {split} {parts} {no_room}");
