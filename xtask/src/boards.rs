@@ -38,7 +38,7 @@ pub(crate) const BOARDS: [Board; 8] = [
 ];
 
 const fn board(path: &'static str, program: &'static str, target: &'static str) -> Board {
-    Board { package: Package { path, program }, target }
+    Board { package: Package::new(path, program), target }
 }
 
 /// Builds them, and gives the table.

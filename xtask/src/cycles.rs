@@ -2,16 +2,18 @@
 
 use crate::count::{self, Count, Counts};
 use crate::elf::Elf;
-use crate::firmware::{self, Target, MEASURE, METHOD, SCENE, TARGETS};
+use crate::firmware::{self, Package, Target, MEASURE, METHOD, SCENE, TARGETS};
 use crate::install::{self, Need};
 use crate::project::{self, progress};
-use crate::{adaptive, costs};
+use crate::{adaptive, costs, goals};
 use crate::{process, table};
 use anyhow::{ensure, Context, Result};
 use serde_json::json;
 use std::process::Command;
 
 /// Count what rendering costs on each target, in QEMU, exactly repeatable.
+///
+/// Without options the table of goals follows: what the project wants to reach, and how near it is.
 ///
 /// Instructions and cycles are the mean of the scene's frames, from the begin of a frame to its last pixel in a row;
 /// the worst line is that of all frames. Cycles are those of a Cortex-M0+ with zero wait states. Code is all that the
@@ -28,12 +30,18 @@ pub(crate) struct Arguments {
     /// What adaptive shading costs under four point lights, with its counts of triangles; takes long.
     #[arg(long, conflicts_with_all = ["all", "json", "scene", "target", "functions"])]
     adaptive: bool,
-    /// The scene.
-    #[arg(long, default_value = SCENE)]
-    scene: String,
-    /// The shading method.
-    #[arg(long, default_value = METHOD)]
-    method: String,
+    /// The table of goals alone; fails if a figure is worse by more than 2 % than the recorded one.
+    #[arg(long, conflicts_with_all = ["all", "adaptive", "json", "scene", "method", "target", "functions", "record"])]
+    check: bool,
+    /// The table of goals alone; records its figures in xtask/recorded.txt, to be compared with from now on.
+    #[arg(long, conflicts_with_all = ["all", "adaptive", "json", "scene", "method", "target", "functions"])]
+    record: bool,
+    /// The scene; t880 unless said otherwise.
+    #[arg(long)]
+    scene: Option<String>,
+    /// The shading method; the default one unless said otherwise.
+    #[arg(long)]
+    method: Option<String>,
     /// With --all, measure these methods alone.
     #[arg(long, value_delimiter = ',', requires = "all")]
     methods: Vec<String>,
@@ -47,15 +55,15 @@ pub(crate) struct Arguments {
 
 /// What the measuring firmware says about itself.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
-struct Report {
-    checksum: String,
+pub(crate) struct Report {
+    pub(crate) checksum: String,
     mesh_bytes: u64,
     ram: Vec<(String, u64)>,
-    stack_bytes: u64,
+    pub(crate) stack_bytes: u64,
 }
 
 impl Report {
-    fn parse(text: &str) -> Result<Report> {
+    pub(crate) fn parse(text: &str) -> Result<Report> {
         let mut report = Report::default();
         for line in text.lines() {
             match line.split(' ').collect::<Vec<_>>()[..] {
@@ -72,26 +80,34 @@ impl Report {
         Ok(report)
     }
 
-    fn ram_bytes(&self) -> u64 {
+    pub(crate) fn ram_bytes(&self) -> u64 {
         self.ram.iter().map(|(_, bytes)| bytes).sum()
     }
 }
 
 /// One target's figures.
 pub(crate) struct Measured {
-    target: &'static Target,
+    pub(crate) target: &'static Target,
     elf: Elf,
-    report: Report,
+    pub(crate) report: Report,
     pub(crate) counts: Counts,
 }
 
 impl Measured {
-    /// Builds, runs and counts.
+    /// Builds, runs and counts a scene by a method.
     ///
     /// # Errors
     /// If any of that fails.
     pub(crate) fn new(target: &'static Target, scene: &str, method: &str) -> Result<Measured> {
-        let elf = firmware::build(MEASURE, target.triple, &["firmware", scene, method])?;
+        Self::of(MEASURE, target, &["firmware", scene, method])
+    }
+
+    /// Builds, runs and counts a package with these features that speaks as the measuring firmware does.
+    ///
+    /// # Errors
+    /// If any of that fails.
+    pub(crate) fn of(package: Package, target: &'static Target, features: &[&str]) -> Result<Measured> {
+        let elf = firmware::build(package, target.triple, features)?;
         let (said, counts) = count::run(target, &elf)?;
         Ok(Measured { target, elf, report: Report::parse(&said)?, counts })
     }
@@ -102,7 +118,7 @@ impl Measured {
     }
 
     /// Cycles, where this core has a model of them.
-    fn cycles(&self, cycles: u64) -> Option<u64> {
+    pub(crate) fn cycles(&self, cycles: u64) -> Option<u64> {
         self.target.model.map(|_| cycles)
     }
 
@@ -121,7 +137,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.all {
         return costs::run(&arguments.methods);
     }
-    let (scene, method) = (&arguments.scene, &arguments.method);
+    if arguments.check || arguments.record {
+        return goals::run(arguments.record);
+    }
+    let scene = arguments.scene.as_deref().unwrap_or(SCENE);
+    let method = arguments.method.as_deref().unwrap_or(METHOD);
     let targets = TARGETS.iter().filter(|target| arguments.target.as_deref().is_none_or(|wanted| wanted == target.triple));
     let measured = targets.map(|target| Measured::new(target, scene, method)).collect::<Result<Vec<_>>>()?;
     ensure!(!measured.is_empty(), "no such target; there are {}", TARGETS.map(|target| target.triple).join(", "));
@@ -139,6 +159,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     let differs = measured.iter().find(|one| one.report.checksum != host);
     ensure!(differs.is_none(), "{} renders other pixels than this machine", differs.map_or("", |one| one.target.triple));
+    let plain = (&arguments.scene, &arguments.method, &arguments.target, arguments.functions, arguments.json);
+    if plain == (&None, &None, &None, 0, false) {
+        println!("{}", goals::text()?);
+    }
     Ok(())
 }
 
@@ -149,10 +173,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 pub(crate) fn check() -> Result<()> {
     run(&Arguments {
         json: false,
-        scene: SCENE.into(),
-        method: METHOD.into(),
         all: false,
         adaptive: false,
+        check: false,
+        record: false,
+        scene: Some(SCENE.into()),
+        method: None,
         methods: Vec::new(),
         target: None,
         functions: 0,
@@ -203,14 +229,22 @@ fn host(scene: &str, method: &str) -> Result<String> {
 /// # Errors
 /// If it cannot be built, or fails.
 pub(crate) fn on_this_machine(scene: &str, method: &str) -> Result<String> {
+    process::output(&mut host_program(MEASURE, &["host", scene, method])?)
+}
+
+/// The program of a package that renders the same on this machine.
+///
+/// # Errors
+/// If it cannot be built.
+pub(crate) fn host_program(package: Package, features: &[&str]) -> Result<Command> {
     progress(format!("rendering on this machine ({})", std::env::consts::ARCH));
     let mut command = project::cargo();
-    command.args(["build", "--quiet", "--release", "--bin", "host", "--features", &format!("host,{scene},{method}")]);
-    command.arg("--manifest-path").arg(project::root().join(MEASURE.path).join("Cargo.toml"));
+    command.args(["build", "--quiet", "--release", "--bin", "host", "--features", &features.join(",")]);
+    command.arg("--manifest-path").arg(project::root().join(package.path).join("Cargo.toml"));
     command.arg("--target-dir").arg(project::target()?.join("firmware"));
     let files = process::build(&mut command)?;
-    let program = files.iter().find(|file| file.file_stem().is_some_and(|name| name == "host")).context("nothing was built")?;
-    process::output(&mut Command::new(program))
+    let program = files.iter().find(|file| file.file_stem().is_some_and(|name| name == "host"));
+    Ok(Command::new(program.context("nothing was built")?))
 }
 
 fn print_json(measured: &[Measured], host: &str, scene: &str, method: &str) {

@@ -33,6 +33,14 @@ pub(crate) struct Package {
     pub(crate) path: &'static str,
     /// The name of its program.
     pub(crate) program: &'static str,
+    /// Whether it needs a heap's library, `alloc`, beside `core`.
+    pub(crate) heap: bool,
+}
+
+impl Package {
+    pub(crate) const fn new(path: &'static str, program: &'static str) -> Self {
+        Self { path, program, heap: false }
+    }
 }
 
 /// What is measured unless something else is asked for: features of the measuring firmware.
@@ -40,16 +48,19 @@ pub(crate) const SCENE: &str = "t880";
 pub(crate) const METHOD: &str = "duff-barycentric";
 
 /// The measuring firmware.
-pub(crate) const MEASURE: Package = Package { path: "xtask/measure", program: "measure" };
+pub(crate) const MEASURE: Package = Package::new("xtask/measure", "measure");
+
+/// Other renderers on the measured scene.
+pub(crate) const COMPARE: Package = Package { heap: true, ..Package::new("xtask/compare", "compare") };
 
 /// The OLED board's firmware, and its target.
-pub(crate) const OLED: Package = Package { path: "examples/lm3s6965-oled", program: "lm3s6965-oled" };
+pub(crate) const OLED: Package = Package::new("examples/lm3s6965-oled", "lm3s6965-oled");
 pub(crate) const OLED_TARGET: &str = "thumbv7m-none-eabi";
 
 /// The Raspberry Pi Pico's firmware, one for each panel, and its target.
-pub(crate) const PICO_ST7789: Package = Package { path: "examples/pico-st7789", program: "pico-st7789" };
-pub(crate) const PICO_GC9A01: Package = Package { path: "examples/pico-gc9a01", program: "pico-gc9a01" };
-pub(crate) const PICO_VGA: Package = Package { path: "examples/pico-vga", program: "pico-vga" };
+pub(crate) const PICO_ST7789: Package = Package::new("examples/pico-st7789", "pico-st7789");
+pub(crate) const PICO_GC9A01: Package = Package::new("examples/pico-gc9a01", "pico-gc9a01");
+pub(crate) const PICO_VGA: Package = Package::new("examples/pico-vga", "pico-vga");
 pub(crate) const PICO_TARGET: &str = "thumbv6m-none-eabi";
 
 /// All targets of all firmware.
@@ -66,7 +77,7 @@ pub(crate) fn command(package: Package, target: &str, features: &[&str]) -> Resu
     let toolchain = toolchain::pick(target)?;
     let (features, version) = (features.join(","), toolchain.version()?);
     progress(format!("building {} for {target} with {version}, features [{features}]", package.path));
-    let mut command = toolchain.cargo(target);
+    let mut command = toolchain.cargo(target, package.heap);
     command.args(["build", "--quiet", "--release", "--target", target, "--bin", package.program]);
     command.arg("--manifest-path").arg(project::root().join(package.path).join("Cargo.toml"));
     // One folder for all firmware, so that `core` is built once for a target.

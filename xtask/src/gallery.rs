@@ -28,10 +28,9 @@ pub(crate) struct Arguments {}
 const VIEWS: [(Subject, usize, usize); 3] = [(Subject::T880, 240, 24), (Subject::I80, 120, 0), (Subject::Triangle, 120, 0)];
 /// Where these are in the tile.
 const PLACES: [Point; 3] = [Point::new(0, LABEL), Point::new(0, LABEL + 192), Point::new(120, LABEL + 192)];
-const LABEL: i32 = 16;
+/// Height of a label.
+pub(crate) const LABEL: i32 = 16;
 const TILE: Size = Size::new(240, LABEL as u32 + 192 + 120);
-const GAP: u32 = 8;
-const COLUMNS: u32 = 4;
 /// How much errors are enlarged.
 const FACTOR: u32 = 8;
 
@@ -42,8 +41,8 @@ const FACTOR: u32 = 8;
 pub(crate) fn run() -> Result<()> {
     transparent()?;
     let tiles = METHODS.len() as u32 + 1;
-    let mut methods = Canvas::new(tiles);
-    let mut errors = Canvas::new(tiles);
+    let mut methods = Canvas::new(TILE, tiles);
+    let mut errors = Canvas::new(TILE, tiles);
     methods.label(0, "f64 reference");
     errors.label(0, "f64 reference");
     for (tile, method) in (1..).zip(METHODS) {
@@ -114,24 +113,33 @@ fn difference(truth: &Picture<Rgb888>, drawn: &Picture<Rgb888>) -> Picture<Rgb88
 }
 
 /// Tiles in rows.
-struct Canvas {
-    picture: Picture<Rgb888>,
+pub(crate) struct Canvas {
+    tile: Size,
+    pub(crate) picture: Picture<Rgb888>,
 }
 
 impl Canvas {
-    fn new(tiles: u32) -> Self {
-        let Size { width, height } = TILE + Size::new_equal(GAP);
-        let (columns, rows) = (COLUMNS.min(tiles), tiles.div_ceil(COLUMNS));
-        Self { picture: Picture::blank((columns * width + GAP) as usize, (rows * height + GAP) as usize, Rgb888::CSS_BLACK) }
+    /// Pixels between tiles.
+    const GAP: u32 = 8;
+    /// Tiles in a row.
+    const COLUMNS: u32 = 4;
+
+    /// So many tiles of that size.
+    pub(crate) fn new(tile: Size, tiles: u32) -> Self {
+        let Size { width, height } = tile + Size::new_equal(Self::GAP);
+        let (columns, rows) = (Self::COLUMNS.min(tiles), tiles.div_ceil(Self::COLUMNS));
+        let size = Size::new(columns * width, rows * height) + Size::new_equal(Self::GAP);
+        Self { tile, picture: Picture::blank(size.width as usize, size.height as usize, Rgb888::CSS_BLACK) }
     }
 
     /// The top left corner of a tile.
     fn tile(&self, number: u32) -> Point {
-        let step = TILE + Size::new_equal(GAP);
-        Point::new_equal(GAP as i32) + step.component_mul(Size::new(number % COLUMNS, number / COLUMNS))
+        let step = self.tile + Size::new_equal(Self::GAP);
+        Point::new_equal(Self::GAP as i32) + step.component_mul(Size::new(number % Self::COLUMNS, number / Self::COLUMNS))
     }
 
-    fn label(&mut self, tile: u32, text: &str) {
+    /// Writes at the top of a tile.
+    pub(crate) fn label(&mut self, tile: u32, text: &str) {
         let style = MonoTextStyle::new(&FONT_8X13, Rgb888::WHITE);
         let Ok(_) = Text::with_baseline(text, self.tile(tile), style, Baseline::Top).draw(self);
     }
@@ -144,7 +152,7 @@ impl Canvas {
     }
 
     /// Puts a picture there, without `cut` of its rows at top and bottom.
-    fn show(&mut self, tile: u32, place: Point, picture: &Picture<Rgb888>, cut: usize) {
+    pub(crate) fn show(&mut self, tile: u32, place: Point, picture: &Picture<Rgb888>, cut: usize) {
         let size = Size::new(picture.width as u32, (picture.height - 2 * cut) as u32);
         let area = Rectangle::new(self.tile(tile) + place, size);
         let Ok(()) = self.fill_contiguous(&area, picture.color[cut * picture.width..].iter().copied());

@@ -8,6 +8,7 @@ mod adaptive;
 mod board;
 mod boards;
 mod bus;
+mod compare;
 mod costs;
 mod count;
 mod cycles;
@@ -15,6 +16,8 @@ mod demo;
 mod elf;
 mod firmware;
 mod gallery;
+mod goals;
+mod growth;
 mod install;
 mod oled;
 mod process;
@@ -22,6 +25,7 @@ mod project;
 mod qemu;
 mod readme;
 mod table;
+mod teapot;
 mod test;
 mod toolchain;
 
@@ -43,9 +47,11 @@ enum Command {
     Board(board::Arguments),
     Boards(boards::Arguments),
     Bus(bus::Arguments),
+    Compare(compare::Arguments),
     Cycles(cycles::Arguments),
     Demo(demo::Arguments),
     Gallery(gallery::Arguments),
+    Growth(growth::Arguments),
     Oled(oled::Arguments),
     Readme(readme::Arguments),
     Test(test::Arguments),
@@ -57,9 +63,11 @@ fn run(command: Command) -> Result<()> {
         Command::Board(arguments) => board::run(&arguments),
         Command::Boards(arguments) => boards::run(&arguments),
         Command::Bus(_) => bus::run(),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Gallery(_) => gallery::run(),
+        Command::Growth(_) => growth::run(),
         Command::Oled(arguments) => oled::run(&arguments),
         Command::Readme(arguments) => readme::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),

@@ -1,24 +1,29 @@
 //! The tables in README and docs.
 
 use crate::project::{self, progress};
-use crate::{accuracy, adaptive, bus, costs, cycles, gallery};
+use crate::{accuracy, adaptive, bus, compare, costs, cycles, gallery, goals, growth};
 use anyhow::{Context, Result};
 
-/// Write the README's tables anew, from what is measured now.
+/// Write the tables of README and docs/performance.md anew, from what is measured now.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Those of docs/shading.md too, and its pictures; takes long.
+    /// Those of docs/shading.md and of growth too, and the pictures; takes long.
     #[arg(long)]
     all: bool,
 }
 
 /// `cargo xtask readme`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    write("README.md", &[("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?), ("bus", bus::text()?)])?;
+    let peers = compare::summary()?;
+    let tables =
+        [("accuracy", accuracy::summary()?), ("cycles", cycles::summary()?), ("bus", bus::text()?), ("peers", peers.clone())];
+    write("README.md", &tables)?;
     write("README.md", &[("transparent", cycles::transparent()?)])?;
+    write("docs/performance.md", &[("peers", peers), ("goals", goals::text()?)])?;
     if arguments.all {
         gallery::run()?;
         // One by one, as each takes long.
+        write("docs/performance.md", &[("growth", growth::text()?)])?;
         write("docs/shading.md", &[("accuracy", accuracy::every_case()?)])?;
         write("docs/shading.md", &[("adaptive", adaptive::text()?)])?;
         write("docs/shading.md", &[("costs", costs::text(&[])?)])?;

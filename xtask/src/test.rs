@@ -5,7 +5,7 @@ use crate::boards::{self, BOARDS};
 use crate::firmware::{self, MEASURE, METHOD, SCENE, TARGETS};
 use crate::install::{self, Need};
 use crate::project;
-use crate::{cycles, oled, process};
+use crate::{cycles, goals, oled, process};
 use anyhow::{ensure, Result};
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
 type Step = (&'static str, fn() -> Result<()>);
 
 /// The steps, the quick ones first.
-const STEPS: [Step; 12] = [
+const STEPS: [Step; 13] = [
     ("formatting", formatting),
     ("lints", lints),
     ("documentation", documentation),
@@ -35,13 +35,14 @@ const STEPS: [Step; 12] = [
     ("no path to a panic", no_panic),
     ("methods apart", methods_apart),
     ("cycles and checksums", same_pixels),
+    ("costs as recorded", as_recorded),
     ("emulated panel", emulated_panel),
     ("emulator tests", emulator_tests),
     ("emulated boards", emulated_boards),
 ];
 
 /// Packages that are workspaces of their own, as the boards are.
-const APART: [&str; 2] = ["xtask/counter", "xtask/measure"];
+const APART: [&str; 3] = ["xtask/compare", "xtask/counter", "xtask/measure"];
 
 /// `cargo xtask test`.
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
@@ -92,7 +93,8 @@ fn lints() -> Result<()> {
     process::run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"]))?;
     // The measuring firmware's scenes and the plugin are for a PC as well.
     let host = format!("host,{SCENE},{METHOD}");
-    for (package, features) in [("xtask/counter", ""), ("xtask/measure", &*host)] {
+    let peers = "host,retrofire-phong";
+    for (package, features) in [("xtask/compare", peers), ("xtask/counter", ""), ("xtask/measure", &*host)] {
         let mut command = cargo(&["clippy", "--features", features, "--manifest-path"]);
         command.arg(format!("{package}/Cargo.toml")).arg("--target-dir").arg(project::target()?.join("counter"));
         process::run(command.args(["--", "--deny", "warnings"]))?;
@@ -153,6 +155,10 @@ fn methods_apart() -> Result<()> {
 
 fn same_pixels() -> Result<()> {
     cycles::check()
+}
+
+fn as_recorded() -> Result<()> {
+    goals::run(false)
 }
 
 fn emulated_panel() -> Result<()> {

@@ -81,8 +81,8 @@ impl Toolchain {
         Ok(format!("rustc {number} ({source})"))
     }
 
-    /// A cargo command that builds for `target`, up to the subcommand.
-    pub(crate) fn cargo(self, target: &str) -> Command {
+    /// A cargo command that builds for `target`, with or without a heap, up to the subcommand.
+    pub(crate) fn cargo(self, target: &str, heap: bool) -> Command {
         let mut command = match self {
             Toolchain::Rustup => crate::project::cargo(),
             Toolchain::Debian => Command::new(DEBIAN_CARGO),
@@ -99,7 +99,7 @@ impl Toolchain {
             let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace(['-', '.'], "_"));
             command.env("RUSTC", DEBIAN_RUSTC).env(linker, "ld.lld");
             // Debian has no compiled `core` for these targets, only its source.
-            command.env("RUSTC_BOOTSTRAP", "1").env("CARGO_UNSTABLE_BUILD_STD", "core");
+            command.env("RUSTC_BOOTSTRAP", "1").env("CARGO_UNSTABLE_BUILD_STD", if heap { "core,alloc" } else { "core" });
         }
         command
     }
