@@ -21,12 +21,12 @@ fn main() {
     };
     let frames = || (0..FRAMES).step_by(STEP);
     let text = [
-        list("POSITIONS", "[f32; 3]", mesh.positions.iter().copied()),
-        list("NORMALS", "[f32; 3]", mesh.normals.iter().copied()),
+        list("POSITIONS", "[f32; 3]", mesh.positions.iter().copied().map(single)),
+        list("NORMALS", "[f32; 3]", mesh.normals.iter().copied().map(single)),
         list("TRIANGLES", "[u16; 3]", mesh.triangles.iter().copied()),
-        list("ACROSS", "[f32; 3]", mesh.triangles.iter().copied().map(across)),
+        list("ACROSS", "[f32; 3]", mesh.triangles.iter().copied().map(across).map(single)),
         list("STEPS", "u16", frames()),
-        list("ROTATIONS", "[[f32; 3]; 3]", frames().map(rotation)),
+        list("ROTATIONS", "[[f32; 3]; 3]", frames().map(rotation).map(|rows| rows.map(single))),
     ];
     fs::write(out.join("teapot.rs"), text.concat()).expect("OUT_DIR is writable");
 
@@ -47,6 +47,10 @@ fn list<T: Debug>(name: &str, kind: &str, items: impl Iterator<Item = T>) -> Str
 fn rotation(frame: u32) -> [[f64; 3]; 3] {
     let ((up, far), (side, ahead)) = (25_f64.to_radians().sin_cos(), (f64::from(frame) / f64::from(FRAMES) * TAU).sin_cos());
     [[ahead, 0.0, side], [up * side, far, -up * ahead], [-far * side, up, far * ahead]]
+}
+
+fn single(v: [f64; 3]) -> [f32; 3] {
+    v.map(|c| c as f32)
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

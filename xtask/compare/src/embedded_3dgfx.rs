@@ -10,7 +10,7 @@ use embedded_3dgfx::engine::K3dengine;
 use embedded_3dgfx::pipeline::command_buffer::CommandBuffer;
 use embedded_3dgfx::pipeline::renderer::FrameCtx;
 use embedded_3dgfx::pipeline::vertex::mesh::{Geometry, K3dMesh, RenderMode};
-use embedded_3dgfx::{ZDepth, Z_MAX_VALUE};
+use embedded_3dgfx::ZDepth;
 use embedded_graphics::{pixelcolor::Rgb565, prelude::*, primitives::Rectangle};
 use nalgebra::{Matrix4, Point3, Vector3};
 
@@ -85,6 +85,7 @@ impl Scene {
     pub fn owners(frame: usize) -> alloc::vec::Vec<u16> {
         use embedded_3dgfx::pipeline::assemble::primitive::DrawPrimitive;
         use embedded_3dgfx::pipeline::command_buffer::RenderCommand;
+        use embedded_3dgfx::Z_MAX_VALUE;
         use embedded_graphics::pixelcolor::raw::RawU16;
         let engine = engine();
         let mut all = alloc::boxed::Box::new(CommandBuffer::<COMMANDS>::new());
