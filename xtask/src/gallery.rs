@@ -71,7 +71,7 @@ pub(crate) fn run() -> Result<()> {
 
 /// Draws docs/transparent.png.
 fn transparent() -> Result<()> {
-    let mut canvas = Canvas::new(3);
+    let mut canvas = Canvas::new(TILE, 3);
     canvas.label(0, "f64 reference");
     canvas.label(1, "transparent_line");
     canvas.label(2, &format!("how far apart, times {FACTOR}"));
