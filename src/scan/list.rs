@@ -7,7 +7,7 @@ use heapless::Vec;
 use super::{active::Active, bucket::TriangleId, geometry::Geometry, table::Span, vertex::Vertex};
 
 /// Triangles put in their places at once.
-const BATCH: usize = 8;
+const BATCH: usize = 16;
 
 /// Up to `N` active triangles in fixed slots, and what they cover on the line, in the order of the first pixel.
 #[derive(Clone, Debug)]
