@@ -9,10 +9,15 @@ use crate::{
         light::{Light, LightSource},
         material::{Color, Material},
     },
+    price::Price,
     scan::{active::Active, table::Span, visibility::Visibility},
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
-    sink::{ink::Ink, row::Row},
+    sink::{
+        ink::{Ink, LEAST},
+        row::Row,
+    },
+    work::Work,
 };
 
 /// Up to `SPANS` spans of one line, each with the registers that shading starts from.
@@ -56,6 +61,30 @@ impl<const SPANS: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSourc
     #[must_use]
     pub const fn counts(&self) -> Line {
         self.counts
+    }
+
+    /// What [`shade`](Self::shade) has to do.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        let spans = self.spans.iter().map(|span| (span.start..span.end, span.material, span.registers));
+        to_shade::<S, LIGHTS, L>(self.width, &self.intensities, spans)
+    }
+
+    /// What [`shade`](Self::shade) takes at most.
+    #[must_use]
+    pub fn cost(&self, price: &Price) -> u32 {
+        price.of(self.work())
+    }
+
+    /// The same with a [ladder](crate::ladder) of methods, given the price list of each.
+    #[must_use]
+    pub fn cost_on(&self, prices: &[Price]) -> u32 {
+        let on = |rung| self.spans.iter().filter(move |span| S::rung(&span.registers) == rung);
+        let work = |rung| {
+            let spans = on(rung).map(|span| (span.start..span.end, span.material, span.registers));
+            to_shade::<S, LIGHTS, L>(self.width, &self.intensities, spans)
+        };
+        sum_of_rungs(prices, self.work(), work)
     }
 
     /// Shades the line into the row, as [`Lines::line`] does: every pixel stored once, from left to right.
@@ -108,6 +137,45 @@ impl<'m, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: Light
         };
         table.counts
     }
+}
+
+/// What shading the spans of a line has to do, in a picture of that width, each given with its material and registers.
+pub(crate) fn to_shade<'m, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
+    width: u16,
+    intensities: &[u16; LIGHTS],
+    spans: impl Iterator<Item = (Range<u16>, &'m Material, S::Registers)>,
+) -> Work {
+    let mut work = Work { lines: 1, ..Work::NONE };
+    let (mut from, mut dressed, mut pixels) = (0, None, [0; 4]);
+    for (Range { start, end }, material, registers) in spans {
+        if !dressed.is_some_and(|before| core::ptr::eq::<Material>(before, material)) {
+            work.dressed += 1;
+            dressed = Some(material);
+        }
+        let count = end.saturating_sub(start);
+        let kind = S::kind(&registers, &Surface { material, intensities }, count.into(), LEAST);
+        if let Some(pixels) = pixels.get_mut(kind) {
+            *pixels += u32::from(count);
+        }
+        work.runs += 1;
+        work.gaps += u32::from(start > from);
+        work.filled += u32::from(start.saturating_sub(from));
+        from = end;
+    }
+    work.gaps += u32::from(width > from);
+    work.filled += u32::from(width.saturating_sub(from));
+    [work.pixels, work.pixels_1, work.pixels_2, work.pixels_3] = pixels;
+    work
+}
+
+/// What a line takes, given all its work and that on each rung: what no method has a price of its own for at the dearest price.
+pub(crate) fn sum_of_rungs(prices: &[Price], all: Work, on: impl Fn(usize) -> Work) -> u32 {
+    let [_, rest] = all.by_method();
+    let own = prices.iter().enumerate().map(|(rung, price)| {
+        let [own, _] = on(rung).by_method();
+        price.of(own)
+    });
+    own.fold(Price::dearest(prices).of(rest), u32::saturating_add)
 }
 
 /// Spans on their way into a table.

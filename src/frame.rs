@@ -18,7 +18,7 @@ use crate::{
     scan::{
         bucket::{at, Buckets, Sorted, TriangleId},
         geometry::{Geometry, Made, Object},
-        picture::{Background, Picture},
+        picture::{Background, Picture, Steps},
         vertex::Vertex,
     },
 };
@@ -350,7 +350,7 @@ impl<
             objects: &self.objects,
             made: &self.made,
         };
-        Picture { geometry, background: self.background, intensities: &self.intensities, aims: &self.aims }
+        Picture { geometry, background: self.background, intensities: &self.intensities, aims: &self.aims, steps: Steps::NONE }
     }
 }
 

@@ -5,10 +5,12 @@ use core::ops::Range;
 use heapless::Vec;
 
 use crate::{
+    baked::{sum_of_rungs, to_shade},
     model::{
         light::{Light, LightSource},
         material::{Color, Material},
     },
+    price::Price,
     scan::{
         active::Active,
         bucket::TriangleId,
@@ -20,6 +22,7 @@ use crate::{
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{ink::Ink, row::Row},
+    work::Work,
 };
 
 /// All spans of a picture and all its facets: what is left to do is to shade, line by line, in any order, as often as wanted.
@@ -127,6 +130,42 @@ impl<
     #[must_use]
     pub fn lines(&self) -> u16 {
         self.ends.len() as u16
+    }
+
+    /// What [`line`](Self::line) has to do; nothing below the picture.
+    #[must_use]
+    pub fn work(&self, y: u16) -> Work {
+        self.work_where(y, |_| true)
+    }
+
+    /// The same of the spans that are chosen by their registers.
+    fn work_where(&self, y: u16, chosen: impl Fn(&S::Registers) -> bool) -> Work {
+        let Some(spans) = self.spans(y) else { return Work::NONE };
+        let [width, _] = self.size;
+        let started = |span: &Piece| {
+            let Facet { material, facet, .. } = self.facets.get(usize::from(span.facet))?;
+            let registers = S::start(facet, span.start.into(), y.into());
+            chosen(&registers).then_some((span.start..span.end, *material, registers))
+        };
+        let work = to_shade::<S, LIGHTS, L>(width, &self.intensities, spans.iter().filter_map(started));
+        Work { gradients: self.background.is_gradient().into(), started: work.runs, ..work }
+    }
+
+    /// What [`line`](Self::line) takes at most with a [ladder](crate::ladder) of methods, given the price list of each.
+    #[must_use]
+    pub fn cost_on(&self, y: u16, prices: &[Price]) -> u32 {
+        sum_of_rungs(prices, self.work(y), |rung| self.work_where(y, |registers| S::rung(registers) == rung))
+    }
+
+    /// What [`line`](Self::line) takes at most.
+    #[must_use]
+    pub fn cost(&self, y: u16, price: &Price) -> u32 {
+        price.of(self.work(y))
+    }
+
+    /// What all its lines take at most, one by one, from the first to the last: for a [`Schedule`](crate::Schedule).
+    pub fn costs<'a>(&'a self, price: &'a Price) -> impl Iterator<Item = u32> + Clone + 'a {
+        (0..self.lines()).map(|y| self.cost(y, price))
     }
 
     /// Shades line y into the row, as [`Lines::line`] does: every pixel stored once, from left to right. A y below the picture

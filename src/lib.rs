@@ -16,7 +16,9 @@
 //!    a few additions, products and look-ups a pixel.
 //! 6. [`sink`]: pixel encodings, palettes, dither, the overlay, and frames to any embedded-graphics display, whole or what of them
 //!    changed.
-//! 7. [`split`]: other ways into a frame, by which triangles with a highlight on them are split for Gouraud shading.
+//! 7. [`price`], [`look_ahead`], [`ladder`]: what lines cost, known before the first one is sent; how far ahead they must be drawn; and
+//!    cheaper methods for those that would be late.
+//! 8. [`split`]: other ways into a frame, by which triangles with a highlight on them are split for Gouraud shading.
 //!
 //! The application owns every buffer and pulls lines; nothing here waits, calls back, allocates, panics, or knows a peripheral.
 //!
@@ -73,8 +75,12 @@
 pub mod baked;
 pub mod frame;
 pub mod frozen;
+pub mod ladder;
+pub mod look_ahead;
 pub mod math;
 pub mod model;
+pub mod price;
+mod prices;
 pub mod scan;
 pub mod scanner;
 pub(crate) mod seen;
@@ -83,10 +89,13 @@ pub mod sink;
 pub(crate) mod smooth;
 pub mod split;
 pub(crate) mod transparent;
+pub mod work;
 
 pub use baked::Baked;
 pub use frame::{Frame, Full};
 pub use frozen::Frozen;
+pub use ladder::{Degraded, Degrading, Plan};
+pub use look_ahead::Schedule;
 pub use math::{angle::Turn, rotation::Rotation, Length};
 pub use model::{
     camera::Camera,
@@ -95,6 +104,7 @@ pub use model::{
     mesh::{Mesh, MeshData, MeshError},
     pose::Pose,
 };
+pub use price::Price;
 pub use scan::{
     columns::Columns,
     depth_line::DepthLine,
@@ -108,7 +118,7 @@ pub use shade::{
     angular_trapezia::AngularTrapezia,
     angular_triangle::AngularTriangle,
     bishop_weimer::BishopWeimer,
-    choose::{ByHighlight, ByMaterial, Choose, GouraudPhong},
+    choose::{ByHighlight, ByMaterial, ByRung, Choose, GouraudPhong},
     duff_barycentric::DuffBarycentric,
     duff_differences::DuffDifferences,
     duff_direct::DuffDirect,
@@ -131,3 +141,4 @@ pub use sink::{
     round::Round,
 };
 pub use split::{highlight::AtHighlight, regular::Regular, Split, Splits};
+pub use work::Work;

@@ -5,6 +5,7 @@ use core::ops::Range;
 use embedded_graphics::primitives::Rectangle;
 
 use crate::{
+    ladder::Degraded,
     model::{
         light::{Light, LightSource},
         material::{Color, Material},
@@ -23,6 +24,7 @@ use crate::{
     },
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{ink::Ink, row::Row},
+    work::{Tally, Work},
 };
 
 /// The state of a walk down a picture: up to `ACTIVE` triangles that cross one line, each with a facet of the shading method.
@@ -51,10 +53,10 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
         Self { list: ActiveList::new(), facets: [S::EMPTY; ACTIVE], table: Table::new(), visibility: V::NEW }
     }
 
-    /// Starts on a picture, above its first line.
+    /// Starts on a picture, above its first line, with an empty list of triangles.
     pub fn start<'s, 'm>(&'s mut self, picture: Picture<'s, 'm, LIGHTS, L>) -> Lines<'s, 'm, ACTIVE, S, LIGHTS, L, V> {
-        // The walk to the first line asked for clears the list.
-        Lines { scanner: self, picture, line: None, dropped: 0 }
+        self.list.clear();
+        Lines { scanner: self, picture, line: None, dropped: 0, degraded: Degraded::default() }
     }
 }
 
@@ -103,9 +105,10 @@ pub struct Lines<
 > {
     scanner: &'s mut Scanner<ACTIVE, S, LIGHTS, L, V>,
     picture: Picture<'s, 'm, LIGHTS, L>,
-    /// The line that the active list stands on.
+    /// The line that the active list stands on; the list is empty if that is none.
     line: Option<u16>,
     dropped: u16,
+    degraded: Degraded,
 }
 
 impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>
@@ -140,6 +143,27 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         let (line, shading) = self.walk(y, width, material, shading);
         shading.row.finish();
         line
+    }
+
+    /// What was walked so far, running on modulo 2³²: what a line took is the difference between after and before. Nothing is
+    /// counted without the feature `tally`; `long` never is, as [`Picture::most`] knows it.
+    #[must_use]
+    pub fn walked(&self) -> Work {
+        let work = self.scanner.list.tally.work();
+        let searches = [work.entered, work.facets, work.walked].into_iter().fold(work.searched, u32::wrapping_add);
+        Work { searched: searches.wrapping_mul(self.picture.geometry.searched()), ..work }
+    }
+
+    /// Facets set up so far on each rung of a [ladder](crate::ladder) below the first.
+    #[must_use]
+    pub const fn degraded(&self) -> Degraded {
+        self.degraded
+    }
+
+    /// Brings the active list to line y; gives the triangles that cross it, by what they cover and in their slots. None if the
+    /// picture has no such line.
+    pub(crate) fn crossing(&mut self, y: u16) -> Option<(&[Span], &mut [Active; ACTIVE])> {
+        self.seek(y).then(|| self.scanner.list.split())
     }
 
     /// The spans of line y with the triangles seen in them, left to right, handed to `see` one by one.
@@ -180,7 +204,8 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
     }
 
     /// Forgets where it stands, and all facets.
-    pub(crate) const fn rewind(&mut self) {
+    pub(crate) fn rewind(&mut self) {
+        self.scanner.list.clear();
         self.line = None;
     }
 
@@ -212,8 +237,14 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         let picture = &self.picture;
         let look = list.extents().first().map_or(0, |extent| extent.look());
         let line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::NONE };
-        let mut walk = Walk { picture, facets, to, look, material, spans: 0, made: 0, bent: 0 };
+        let mut walk =
+            Walk { picture, facets, to, look, material, spans: 0, made: 0, bent: 0, degraded: self.degraded, tally: Tally::NONE };
         visibility.resolve(y, width as i32, list, &picture.geometry, table, |spans, slots| walk.see(spans, slots));
+        if S::BY_RUNG {
+            self.degraded = walk.degraded;
+        }
+        let (active, spans, facets) = (line.active.into(), walk.spans.into(), walk.made.into());
+        list.tally.add(Work { active, spans, facets, ..walk.tally.work() });
         (Line { spans: walk.spans, facets: walk.made, bent: walk.bent, ..line }, walk.to)
     }
 
@@ -277,8 +308,10 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         }
         let mut line = match self.line {
             Some(line) if line <= y => line,
-            _ => {
-                self.scanner.list.clear();
+            before => {
+                if before.is_some() {
+                    self.scanner.list.clear();
+                }
                 self.dropped = self.scanner.list.enter(0, &self.picture.geometry);
                 0
             }
@@ -288,6 +321,7 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
             self.dropped = self.dropped.saturating_add(self.scanner.list.advance(line, &self.picture.geometry));
         }
         self.line = Some(y);
+        self.scanner.list.tally.add(Work { walked: 1, ..Work::NONE });
         true
     }
 }
@@ -319,6 +353,8 @@ struct Walk<'a, 'f, 'm, T, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHT
     spans: u16,
     made: u16,
     bent: u16,
+    degraded: Degraded,
+    tally: Tally,
 }
 
 impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>
@@ -342,7 +378,14 @@ impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, co
             if active.facet == 0 {
                 let surface = Surface { material: self.material, intensities: self.picture.intensities };
                 self.made += 1;
-                self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, active, &surface, facet));
+                let mut rung = 0;
+                if S::BY_RUNG {
+                    let steps = self.picture.steps_of(active.id);
+                    self.tally.add(Work { asked: steps.len() as u32, ..Work::NONE });
+                    rung = self.picture.steps.rung(steps, active);
+                    self.degraded.count(rung);
+                }
+                self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, active, rung, &surface, facet));
                 active.facet = self.to.keep(facet, active.id);
             }
             self.to.span(*span, facet, active);
@@ -360,6 +403,7 @@ impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, co
     #[cold]
     #[inline(never)]
     fn dress(&mut self, look: u16) {
+        self.tally.add(Work { searched: 1, ..Work::NONE });
         if let Some(material) = self.picture.geometry.material(look) {
             (self.look, self.material) = (look, material);
             self.to.dress(material);
@@ -422,11 +466,13 @@ pub(crate) fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSo
 fn set_up<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
     picture: &Picture<'_, '_, LIGHTS, L>,
     active: &Active,
+    rung: u8,
     surface: &Surface<'_, LIGHTS>,
     facet: &mut S::Facet,
 ) -> bool {
     let Some(triangle) = picture.triangle(active.id) else { return false };
     let corners;
+    let triangle = Triangle { rung, ..triangle };
     let triangle = if surface.material.double_sided && triangle.is_turned() {
         corners = triangle.turned();
         Triangle { corners: corners.each_ref(), turned: true, ..triangle }

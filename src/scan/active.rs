@@ -94,6 +94,14 @@ impl Active {
         Some(look)
     }
 
+    /// Edges for which [`Edge::set`] takes 64 bits where it begins on line `line`, or turns there.
+    pub(crate) fn long<const LIGHTS: usize>(corners: [&Vertex<LIGHTS>; 3], line: u16, turns: bool) -> u32 {
+        let [(_, top), (_, middle), (_, bottom)] = by_height(corners.map(|corner| (0, corner)));
+        let line = i32::from(line);
+        let (from, to) = if line < first_at(middle.point().y) { (top, middle) } else { (middle, bottom) };
+        u32::from(Edge::is_long(from, to, line)) + u32::from(!turns && Edge::is_long(top, bottom, line))
+    }
+
     /// The edges with the middle corner and without.
     #[inline(always)]
     fn edges(&mut self) -> [&mut Edge; 2] {
@@ -114,6 +122,12 @@ impl Active {
     #[inline(always)]
     pub(crate) const fn ends(&self, line: u32) -> bool {
         line == self.end as u32
+    }
+
+    /// Whether line `line` is the first one below the middle corner.
+    pub(crate) fn turned_on<const LIGHTS: usize>(&self, line: u16, vertices: &[Vertex<LIGHTS>]) -> bool {
+        let [middle, _] = self.lower;
+        vertices.get(usize::from(middle)).is_some_and(|middle| first_at(middle.point().y) == i32::from(line))
     }
 
     /// Turns to the lower edge before the step to line `line`, the first one below the middle corner.
@@ -153,18 +167,19 @@ impl Active {
         [self.far.into(), self.near.into()]
     }
 
-    /// Makes `depth` ready.
+    /// Makes `depth` ready. Returns 1 if that took 64-bit divisions, else 0.
     #[cold]
     #[inline(never)]
-    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, geometry: &Geometry<'_, '_, LIGHTS>) {
-        let Some(corners) = geometry.corners(self.id) else { return };
+    pub(crate) fn deepen<const LIGHTS: usize>(&mut self, geometry: &Geometry<'_, '_, LIGHTS>) -> u32 {
+        let Some(corners) = geometry.corners(self.id) else { return 0 };
         let points = corners.map(Vertex::point);
         let [p0, ..] = points;
         let [x, y] = Gradient::anchor(p0).map(i32::from);
         let [far, near] = self.reach();
-        let [at, dx, dy] = plane(points, corners.map(|corner| corner.nearness() as i32), near - far);
+        let ([at, dx, dy], exact) = plane(points, corners.map(|corner| corner.nearness() as i32), near - far);
         self.depth = [at.wrapping_sub(dx.wrapping_mul(x)).wrapping_sub(dy.wrapping_mul(y)), dx, dy];
         self.deep = true;
+        exact
     }
 
     /// The nearness at a pixel, 30 bits at the near plane; larger is nearer.
@@ -189,16 +204,18 @@ impl Active {
 }
 
 /// The depth at [the anchor](Gradient::anchor), and its increase for a pixel to the right and down, wrapping; with the difference
-/// between nearest and farthest corner as [`Active::reach`] has it.
+/// between nearest and farthest corner as [`Active::reach`] has it. And 1 if that took 64-bit divisions, else 0.
 ///
 /// At each pixel that the triangle covers the depth is off by less than 2¹⁴, in fact by 6300 at most. As the reach is in units of 2¹⁵, two triangles of which
 /// one as a whole is nearer are in the same order by their depths: there is one order for all ways to find who is seen.
 #[inline(always)]
-fn plane(points: [Point; 3], [w0, w1, w2]: [i32; 3], reach: i32) -> [i32; 3] {
+fn plane(points: [Point; 3], [w0, w1, w2]: [i32; 3], reach: i32) -> ([i32; 3], u32) {
     match Gradient::with_bits(points) {
         // Of 2¹⁴, at most half for λ1 and λ2, and a quarter for ρ.
-        Some((gradient, bits)) if reach >> (bits.min(16) - 3).max(0) == 0 => gradient.linear_wide(w0, w1 - w0, w2 - w0, FINER),
-        _ => exact_plane(points, [w0, w1, w2]),
+        Some((gradient, bits)) if reach >> (bits.min(16) - 3).max(0) == 0 => {
+            (gradient.linear_wide(w0, w1 - w0, w2 - w0, FINER), 0)
+        }
+        _ => (exact_plane(points, [w0, w1, w2]), 1),
     }
 }
 
@@ -278,14 +295,14 @@ mod tests {
             let reach = ((largest + 0xff) >> 8) - (least >> 8);
 
             let points = corners.map(|[x, y]| Point::new(x, y));
-            let [depth, dx, dy] = plane(points, nearness, reach);
+            let ([depth, dx, dy], kind) = plane(points, nearness, reach);
             let [ax, ay] = Gradient::anchor(points[0]).map(i32::from);
             let depth = depth.wrapping_add(dx.wrapping_mul(pixel[0] - ax)).wrapping_add(dy.wrapping_mul(pixel[1] - ay));
             let [wa, wb, wc] = nearness.map(i128::from);
             let exact = (((wa * at_a + wb * at_b + wc * at_c) << FINER) as f64) / whole as f64;
             let error = (f64::from(depth) - exact).abs();
             assert!(error < f64::from(1 << 14), "{corners:?} {nearness:?} at {pixel:?}: {error}");
-            let kind = usize::from(plane(points, nearness, reach) == exact_plane(points, nearness));
+            let kind = kind as usize;
             counts[kind] += 1;
             most[kind] = f64::max(most[kind], error);
         }

@@ -27,8 +27,7 @@ impl Edge {
     pub fn set<const LIGHTS: usize>(&mut self, top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) {
         let (top, bottom) = (top.point(), bottom.point());
         let (dx, dy, down) = (bottom.x - top.x, bottom.y - top.y, center(line) - top.y);
-        // Below 128 pixels all of it fits 32 bits.
-        if ((dx + (1 << 15)) as u32 >> 16) | (dy as u32 >> 15) | (down as u32 >> 15) != 0 {
+        if is_long(dx, dy, down) {
             return self.set_long(top.x, dx, dy, down);
         }
         let (whole, [high, low]) = divide(dx, dy as u32);
@@ -52,6 +51,12 @@ impl Edge {
         let x = i64::from(x + SUBPIXELS / 2) + whole * down;
         self.at = (x << 40).wrapping_add(part.wrapping_mul(down)).wrapping_sub(1);
         self.step = (whole << 48) + (part << 8);
+    }
+
+    /// Whether [`set`](Self::set) takes 64 bits.
+    pub(crate) fn is_long<const LIGHTS: usize>(top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) -> bool {
+        let (top, bottom) = (top.point(), bottom.point());
+        is_long(bottom.x - top.x, bottom.y - top.y, center(line) - top.y)
     }
 
     /// The first pixel whose centre lies on or right of the edge.
@@ -83,6 +88,12 @@ impl Edge {
     pub fn step_back(&mut self) {
         self.at = self.at.wrapping_sub(self.step);
     }
+}
+
+/// Whether a height and a width, or a place on the edge, are 128 pixels and more: below that all of it fits 32 bits.
+#[inline(always)]
+const fn is_long(dx: i32, dy: i32, down: i32) -> bool {
+    ((dx + (1 << 15)) as u32 >> 16) | (dy as u32 >> 15) | (down as u32 >> 15) != 0
 }
 
 /// Those of a number of 15 bits, 0 counting as 1; looked up, as Cortex-M0+ would have to call a function for an instruction that

@@ -66,6 +66,12 @@ impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
         self.viewport.size.height as u16
     }
 
+    /// Objects and parts of meshes that a search for a triangle or a material looks at, at most.
+    pub(crate) fn searched(&self) -> u32 {
+        let parts = self.objects.iter().map(|object| object.mesh.data().parts.len()).max().unwrap_or(0);
+        (self.objects.len() + parts) as u32
+    }
+
     pub(crate) fn starting(&self, line: u16) -> Starting<'f> {
         Starting { kept: self.kept, next: self.heads.get(usize::from(line)).copied().unwrap_or(0) }
     }

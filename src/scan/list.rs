@@ -5,6 +5,7 @@ use core::cell::Cell;
 use heapless::Vec;
 
 use super::{active::Active, bucket::TriangleId, geometry::Geometry, table::Span, vertex::Vertex};
+use crate::work::{Tally, Work};
 
 /// Triangles put in their places at once.
 const BATCH: usize = 16;
@@ -16,14 +17,16 @@ pub struct ActiveList<const N: usize> {
     order: Vec<Span, N>,
     /// The first free slot; N if there is none.
     free: u16,
+    pub(crate) tally: Tally,
 }
 
 impl<const N: usize> ActiveList<N> {
     /// A list that is to be [cleared](Self::clear) before its first use: all zeros, so that a `static` takes no flash.
     pub(crate) const fn new() -> Self {
-        Self { slots: [Active::NONE; N], order: Vec::new(), free: 0 }
+        Self { slots: [Active::NONE; N], order: Vec::new(), free: 0, tally: Tally::NONE }
     }
 
+    #[inline(never)]
     pub(crate) fn clear(&mut self) {
         self.order.clear();
         self.free = 0;
@@ -58,6 +61,7 @@ impl<const N: usize> ActiveList<N> {
     /// of triangles left out for want of room.
     #[inline(never)]
     pub(crate) fn advance<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, '_, L>) -> u16 {
+        self.tally.add(Work { stepped: self.order.len() as u32, ..Work::NONE });
         let free = self.free;
         self.step(line.into(), geometry.vertices);
         if self.free != free {
@@ -74,11 +78,13 @@ impl<const N: usize> ActiveList<N> {
             let Some(active) = self.slots.get_mut(usize::from(span.slot())) else { break };
             if active.turns(line) {
                 if active.ends(line) {
+                    self.tally.add(Work { ended: 1, ..Work::NONE });
                     active.next = self.free;
                     self.free = span.slot();
                     *span = Span::NONE;
                     continue;
                 }
+                self.tally.add(Work { turned: 1, ..Work::NONE });
                 active.bend(line, vertices);
             }
             active.step(span);
@@ -95,7 +101,7 @@ impl<const N: usize> ActiveList<N> {
             rest = after;
             let span = place.get();
             if before.is_after(span) {
-                sink(places.get(..places.len() - rest.len()).unwrap_or_default());
+                sink(places.get(..places.len() - rest.len()).unwrap_or_default(), &mut self.tally);
             } else {
                 before = span;
             }
@@ -109,6 +115,7 @@ impl<const N: usize> ActiveList<N> {
         let mut dropped = 0;
         let mut new = Vec::new();
         for id in geometry.starting(line) {
+            self.tally.add(Work { entered: 1, ..Work::NONE });
             if new.is_full() {
                 self.merge(&mut new);
             }
@@ -130,7 +137,7 @@ impl<const N: usize> ActiveList<N> {
                 let _ = new.push(span);
                 let _ = self.order.push(span);
                 if misplaced {
-                    sink(Cell::from_mut(new.as_mut_slice()).as_slice_of_cells());
+                    sink(Cell::from_mut(new.as_mut_slice()).as_slice_of_cells(), &mut self.tally);
                 }
             }
         }
@@ -145,9 +152,11 @@ impl<const N: usize> ActiveList<N> {
     fn merge(&mut self, new: &mut Vec<Span, BATCH>) {
         let mut places = Cell::from_mut(self.order.as_mut_slice()).as_slice_of_cells();
         let mut others = places.get(..places.len().saturating_sub(new.len())).unwrap_or_default();
+        let before = others.len();
         for span in new.iter().rev() {
             [places, others] = settle(places, others, *span);
         }
+        self.tally.add(Work { moved: (before - others.len()) as u32, ..Work::NONE });
         new.clear();
     }
 
@@ -186,9 +195,10 @@ impl<const N: usize> ActiveList<N> {
 
 /// Moves the last one to its place among the others, which are in order.
 #[inline(never)]
-fn sink(places: &[Cell<Span>]) {
+fn sink(places: &[Cell<Span>], tally: &mut Tally) {
     if let [others @ .., last] = places {
-        settle(places, others, last.get());
+        let [_, left] = settle(places, others, last.get());
+        tally.add(Work { moved: (others.len() - left.len()) as u32, ..Work::NONE });
     }
 }
 

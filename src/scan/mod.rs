@@ -7,6 +7,7 @@ pub mod depth_line;
 pub mod edge;
 pub mod geometry;
 pub mod list;
+pub(crate) mod most;
 pub mod picture;
 pub mod resolve;
 pub(crate) mod silhouette;

@@ -3,6 +3,7 @@
 use embedded_graphics::primitives::Rectangle;
 
 use super::{
+    active::Active,
     bucket::TriangleId,
     geometry::{Geometry, Source},
     triangle::Triangle,
@@ -30,6 +31,11 @@ pub enum Background {
 }
 
 impl Background {
+    /// Whether its colour is another one on each line.
+    pub(crate) const fn is_gradient(self) -> bool {
+        matches!(self, Self::Gradient { .. })
+    }
+
     /// Its colour on line y of so many; none if pixels stay what they were.
     #[inline(always)]
     pub(crate) fn at(self, y: u16, height: u16) -> Option<Color> {
@@ -51,6 +57,29 @@ pub struct Picture<'f, 'm, const LIGHTS: usize = 1, L: LightSource = Light> {
     pub(crate) intensities: &'f [u16; LIGHTS],
     /// For each object, the lights as it sees them.
     pub(crate) aims: &'f [[L::Aim; LIGHTS]],
+    pub(crate) steps: Steps<'f>,
+}
+
+/// How far each line is down a ladder.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Steps<'f> {
+    /// For each line, steps: one for far triangles, the next one for near ones, and so on; none if nothing is degraded.
+    pub(crate) steps: &'f [u8],
+    /// Triangles are far whose nearest corner is not nearer than this, the upper 16 bits of a nearness.
+    pub(crate) middle: u16,
+}
+
+impl Steps<'_> {
+    /// Nothing is degraded.
+    pub(crate) const NONE: Self = Self { steps: &[], middle: 0 };
+
+    /// The rung of a triangle: that of the line that is farthest down the ladder, of all that it crosses, so that it is set up once
+    /// and the same in whatever order lines are drawn.
+    pub(crate) fn rung(&self, lines: &[u8], active: &Active) -> u8 {
+        let step = lines.iter().fold(0, |most, step| most.max(*step));
+        let [_, near] = active.reach();
+        (step + u8::from(near <= i32::from(self.middle))) >> 1
+    }
 }
 
 impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
@@ -85,7 +114,7 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
             _ => [0; 3],
         };
         let corners = [vertex(a)?, vertex(b)?, vertex(c)?];
-        Some(Triangle { corners, edges: numbers.edges, aims, numbers, nearness, turned: false })
+        Some(Triangle { corners, edges: numbers.edges, aims, numbers, nearness, turned: false, rung: 0 })
     }
 }
 

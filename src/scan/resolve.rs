@@ -9,6 +9,7 @@ use super::{
     table::{Span, Table},
     visibility::{wins, Visibility},
 };
+use crate::work::{Tally, Work};
 
 /// The spanning scan-line algorithm: depths are compared where triangles begin, end or cross. Needs no memory.
 #[derive(Clone, Copy, Debug)]
@@ -50,11 +51,12 @@ struct Sweep<const N: usize> {
     next: usize,
     /// Those that have begun and may be seen at x or after it; some may have ended.
     open: Vec<u16, N>,
+    tally: Tally,
 }
 
 impl<const N: usize> Sweep<N> {
     const fn new(line: u16, width: i32) -> Self {
-        Self { line, width, x: 0, next: 0, open: Vec::new() }
+        Self { line, width, x: 0, next: 0, open: Vec::new(), tally: Tally::NONE }
     }
 
     /// Walks the line, run by run.
@@ -81,6 +83,7 @@ impl<const N: usize> Sweep<N> {
                 see(table.spans(), slots);
             }
         }
+        list.tally.add(self.tally.work());
     }
 
     /// Where none is open: the triangles that lie beside each other, up to one that the next one overlaps or that reaches out of
@@ -127,6 +130,7 @@ impl<const N: usize> Sweep<N> {
         // What is nearer than this is in front of all open ones.
         let mut bound = i32::MAX;
         while x < width && !self.open.is_empty() {
+            self.tally.add(Work { fronts: 1, ..Work::NONE });
             let mut until = width;
             let mut place = next;
             if Open::new(next, extents, slots).is_some_and(|other| other.start <= x && other.end > x && other.far > bound) {
@@ -151,6 +155,7 @@ impl<const N: usize> Sweep<N> {
                     break;
                 }
                 next += 1;
+                self.tally.add(Work { looked: 1, ..Work::NONE });
                 if extent.end() <= start {
                     continue;
                 }
@@ -213,6 +218,7 @@ impl<const N: usize> Sweep<N> {
         slots: &mut [Active; N],
         geometry: &Geometry<'_, '_, L>,
     ) -> (i32, i32) {
+        self.tally.add(Work { looked: self.open.len() as u32, ..Work::NONE });
         let mut front = Open::NONE;
         while let Some(other) = self.open.pop().and_then(|place| Open::new(place.into(), extents, slots)) {
             front = other;
@@ -256,7 +262,7 @@ impl<const N: usize> Sweep<N> {
     /// changes; else a pixel that never comes.
     #[inline(never)]
     fn duel<const L: usize>(
-        &self,
+        &mut self,
         [other, front]: [usize; 2],
         x: i32,
         extents: &[Span],
@@ -267,9 +273,13 @@ impl<const N: usize> Sweep<N> {
         let (Some(other), Some(front)) = (extents.get(other), extents.get(front)) else { return NEVER };
         let last = other.end().min(front.end()).min(self.width) - 1;
         let pair = [other.slot(), front.slot()];
+        self.tally.add(Work { compared: 1, ..Work::NONE });
         for slot in pair {
             match slots.get_mut(usize::from(slot)) {
-                Some(active) if !active.deep => active.deepen(geometry),
+                Some(active) if !active.deep => {
+                    let exact = active.deepen(geometry);
+                    self.tally.add(Work { deepened: 1, exact, ..Work::NONE });
+                }
                 _ => {}
             }
         }

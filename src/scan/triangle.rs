@@ -25,6 +25,8 @@ pub struct Triangle<'f, const LIGHTS: usize, L: LightSource = Light> {
     pub(crate) nearness: [u32; 3],
     /// Whether its normals are turned, as it is seen from behind.
     pub(crate) turned: bool,
+    /// How far down a [ladder](crate::ladder) of methods it is to be shaded; 0 without one.
+    pub rung: u8,
 }
 
 impl<const LIGHTS: usize, L: LightSource> Triangle<'_, LIGHTS, L> {

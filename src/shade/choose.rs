@@ -13,6 +13,9 @@ use crate::{
 
 /// Which of two methods shades a triangle.
 pub trait Rule<const LIGHTS: usize, L: LightSource = Light> {
+    /// Rungs of a [ladder](crate::ladder) from the first method down to the second.
+    const RUNGS: usize = 0;
+
     /// Whether it is the second.
     fn second(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> bool;
 }
@@ -43,6 +46,18 @@ impl<const LIGHTS: usize, L: LightSource> Rule<LIGHTS, L> for ByHighlight {
     }
 }
 
+/// The rule of a [ladder](crate::ladder): the second method from that rung on.
+#[derive(Clone, Copy, Debug)]
+pub struct ByRung<const RUNG: u8>;
+
+impl<const RUNG: u8, const LIGHTS: usize, L: LightSource> Rule<LIGHTS, L> for ByRung<RUNG> {
+    const RUNGS: usize = 1;
+
+    fn second(triangle: &Triangle<'_, LIGHTS, L>, _: &Surface<'_, LIGHTS>) -> bool {
+        triangle.rung >= RUNG
+    }
+}
+
 /// Shades each triangle by `A` or by `B`, as the rule `R` says; may be nested. Only the methods named are linked.
 #[derive(Clone, Copy, Debug)]
 pub struct Choose<A, B, R = ByMaterial>(PhantomData<(A, B, R)>);
@@ -64,6 +79,7 @@ impl<const LIGHTS: usize, L: LightSource, A: Shade<LIGHTS, L>, B: Shade<LIGHTS, 
 {
     type Facet = Either<A::Facet, B::Facet>;
     type Registers = Either<A::Registers, B::Registers>;
+    const BY_RUNG: bool = R::RUNGS > 0 || A::BY_RUNG || B::BY_RUNG;
     const EMPTY: Self::Facet = Either::First(A::EMPTY);
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
@@ -79,6 +95,21 @@ impl<const LIGHTS: usize, L: LightSource, A: Shade<LIGHTS, L>, B: Shade<LIGHTS, 
         match facet {
             Either::First(facet) => Either::First(A::start(facet, x, y)),
             Either::Second(facet) => Either::Second(B::start(facet, x, y)),
+        }
+    }
+
+    /// The kind that the method of the span says.
+    fn kind(registers: &Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: usize, least: u32) -> usize {
+        match registers {
+            Either::First(registers) => A::kind(registers, surface, pixels, least),
+            Either::Second(registers) => B::kind(registers, surface, pixels, least),
+        }
+    }
+
+    fn rung(registers: &Self::Registers) -> usize {
+        match registers {
+            Either::First(registers) => A::rung(registers),
+            Either::Second(registers) => R::RUNGS + B::rung(registers),
         }
     }
 

@@ -101,6 +101,14 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
         Registers { shiny: facet.shiny, cosines }
     }
 
+    /// Dull and shining pixels by quadratics, dull and shining ones by quotients.
+    fn kind(r: &Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: usize, least: u32) -> usize {
+        match &r.cosines {
+            Along::Gentle(cosines) => (r.shiny && shows(cosines, pixels, first::<LIGHTS>(&surface.material.power, least))).into(),
+            Along::Steep(_) => 2 + usize::from(r.shiny),
+        }
+    }
+
     #[inline]
     fn run<P>(r: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         let power = &surface.material.power;

@@ -88,6 +88,8 @@ pub trait Shade<const LIGHTS: usize, L: LightSource = Light> {
     type Facet: Copy + core::fmt::Debug;
     /// What it steps from pixel to pixel.
     type Registers: Copy + core::fmt::Debug;
+    /// Whether it asks for a triangle's [rung](Triangle::rung).
+    const BY_RUNG: bool = false;
     /// A facet of nothing, to fill memory with.
     const EMPTY: Self::Facet;
 
@@ -96,6 +98,19 @@ pub trait Shade<const LIGHTS: usize, L: LightSource = Light> {
 
     /// The registers at pixel x of line y.
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers;
+
+    /// Of up to four kinds of pixels that the method knows, from 0 on, that of so many pixels from there on; kinds differ in what a
+    /// pixel takes. Less specular light than `least`, Q14, is taken to change no pixel.
+    #[inline]
+    fn kind(_registers: &Self::Registers, _surface: &Surface<'_, LIGHTS>, _pixels: usize, _least: u32) -> usize {
+        0
+    }
+
+    /// The rung of a [ladder](crate::ladder) that these registers stand on.
+    #[inline]
+    fn rung(_registers: &Self::Registers) -> usize {
+        0
+    }
 
     /// Shades the pixels from there on to the right.
     fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>);

@@ -196,6 +196,11 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for QuadraticIntensit
         facet.start(x, y)
     }
 
+    /// Dull and shining pixels.
+    fn kind(registers: &Registers, _: &Surface<'_, LIGHTS>, _: usize, _: u32) -> usize {
+        registers.shiny.into()
+    }
+
     #[inline]
     fn run<P>(registers: Registers, _: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         registers.run::<P, LIGHTS>(pixels, paint);

@@ -150,7 +150,7 @@ const ABOVE: u32 = 1 << 31 | 1 << 20 | 1 << 9;
 const LEVELS: u32 = 0x7e0 << 16 | 0xf81f;
 
 /// The least specular light that Rgb565 shows: a step of its tables, Q14.
-const LEAST: u32 = 1 << 7;
+pub(crate) const LEAST: u32 = 1 << 7;
 
 /// Rgb565 for that much light.
 #[inline(always)]

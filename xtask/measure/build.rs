@@ -14,6 +14,9 @@ use std::{
 fn main() {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     mesh(&out).unwrap_or_else(|error| panic!("{error}"));
+    if env::var_os("CARGO_FEATURE_WAYS").is_some() {
+        ways(&out).unwrap_or_else(|error| panic!("{error}"));
+    }
     println!("cargo:rerun-if-changed=memory-mps2.x");
     println!("cargo:rerun-if-changed=memory-virt.x");
     let target = env::var("TARGET").expect("cargo sets TARGET");
@@ -89,4 +92,66 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / dot(v, v).sqrt())
+}
+
+/// Makes the meshes of all scenes of whose lines the cost is foretold.
+fn ways(out: &Path) -> Result<(), Box<dyn Error>> {
+    soups(out);
+    let orange = Options { base: Some([0.85, 0.45, 0.20]), ..Options::default() };
+    beamshade_mesh::build("../../examples/models/teapot-5560.obj", "TEAPOT_5560", &orange)?;
+    let sphere = out.join("sphere-80.obj");
+    fs::write(&sphere, icosphere())?;
+    beamshade_mesh::build(&sphere, "SPHERE", &orange)?;
+    Ok(())
+}
+
+/// Makes meshes of random triangles for random scenes, the same on each machine: integers throughout.
+fn soups(out: &Path) {
+    const SOUPS: usize = 20;
+    let mut state = 1_u64;
+    let mut random = |below: i64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as i64 % below
+    };
+    let mut statics = String::new();
+    let mut names = Vec::new();
+    for soup in 0..SOUPS {
+        let mut text = String::new();
+        let mut vertex = |[x, y, z]: [i64; 3], normal: [i64; 3]| {
+            let [nx, ny, nz] = normal;
+            text += &format!("v {x}e-3 {y}e-3 {z}e-3\nvn {nx}e-3 {ny}e-3 {nz}e-3\n");
+        };
+        let count = if soup == 0 { 1 } else { 1 + random(40) as usize };
+        for _ in 0..count {
+            let mut near = |[x, y, z]: [i64; 3], size: i64| [x, y, z].map(|at| at + random(2 * size + 1) - size);
+            let bend = [0, 100, 500, 3000][soup / 4 % 4];
+            let normal = near([0; 3], 1000);
+            let mut corners = [[0; 3]; 3].map(|center| near(center, 900));
+            match soup % 4 {
+                // Anywhere; small; slivers; sheets that lie close behind each other.
+                0 => {}
+                1 => corners = [(); 3].map(|()| near(corners[0], 150)),
+                2 => corners[2] = near([0, 1, 2].map(|i| (corners[0][i] + corners[1][i]) / 2), 20),
+                _ => corners = corners.map(|[x, y, z]| [x, y, z / 40]),
+            }
+            for corner in corners {
+                let [x, y, z] = near(normal, bend);
+                vertex(corner, [x, y, if x | y | z == 0 { 1 } else { z }]);
+            }
+        }
+        for at in (1..=3 * count).step_by(3) {
+            text += &format!("f {at}//{at} {0}//{0} {1}//{1}\n", at + 1, at + 2);
+        }
+        let (path, name) = (out.join(format!("soup-{soup}.obj")), format!("SOUP_{soup}"));
+        fs::write(&path, text).expect("OUT_DIR can be written to");
+        let base = [0.2 + 0.04 * soup as f64, 0.9 - 0.04 * soup as f64, 0.5];
+        let options = Options { base: Some(base), double_sided: soup % 3 == 0, ..Options::default() };
+        if let Err(error) = beamshade_mesh::build(&path, &name, &options) {
+            panic!("{}: {error}", path.display());
+        }
+        statics += &format!("include!(concat!(env!(\"OUT_DIR\"), \"/soup-{soup}.rs\"));\n");
+        names.push(format!("&{name}"));
+    }
+    statics += &format!("static SOUPS: [&beamshade::Mesh<'static>; {SOUPS}] = [{}];\n", names.join(", "));
+    fs::write(out.join("soups.rs"), statics).expect("OUT_DIR can be written to");
 }

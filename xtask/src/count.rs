@@ -45,7 +45,7 @@ impl Stage {
 }
 
 /// Far more than any count takes.
-const LIMIT: Duration = Duration::from_secs(600);
+const LIMIT: Duration = Duration::from_secs(3600);
 
 /// Instructions and cycles; the latter are 0 where the core has no model.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

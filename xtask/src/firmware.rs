@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 /// A target of the measuring firmware.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Target {
     pub(crate) triple: &'static str,
     /// The emulated board that runs it.

@@ -9,6 +9,7 @@ mod board;
 mod boards;
 mod bus;
 mod compare;
+mod cost;
 mod costs;
 mod count;
 mod cycles;
@@ -48,6 +49,7 @@ enum Command {
     Boards(boards::Arguments),
     Bus(bus::Arguments),
     Compare(compare::Arguments),
+    Cost(cost::Arguments),
     Cycles(cycles::Arguments),
     Demo(demo::Arguments),
     Gallery(gallery::Arguments),
@@ -64,6 +66,7 @@ fn run(command: Command) -> Result<()> {
         Command::Boards(arguments) => boards::run(&arguments),
         Command::Bus(_) => bus::run(),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Cost(arguments) => cost::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Gallery(_) => gallery::run(),

@@ -5,7 +5,9 @@
 mod accuracy;
 mod capacity;
 mod changes;
+mod cost;
 mod coverage;
+mod ladder;
 mod lines;
 mod phong;
 mod scene;

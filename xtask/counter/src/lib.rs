@@ -5,7 +5,7 @@
 //! - `stages`: lines `START END STAGE`: hexadecimal addresses, half open, and a stage number below [`STAGES`].
 //!   An address outside all of them belongs to the stage that ran before it, so that a library call such as `memset`
 //!   or `__aeabi_lmul` counts for whoever calls it.
-//! - `model=m0plus`: count Cortex-M0+ cycles too (see [`m0plus`]); without it cycles are 0.
+//! - `model=m0plus`, `model=m4`: count cycles of a Cortex-M0+ or Cortex-M4 too (see [`m0plus`], [`m4`]); without it cycles are 0.
 //!
 //! The firmware's marks are instructions without an effect; they are not counted themselves:
 //!
@@ -31,6 +31,7 @@
 //! ```
 
 mod m0plus;
+mod m4;
 mod qemu;
 
 use std::collections::BTreeMap;
@@ -59,6 +60,17 @@ impl Count {
     }
 }
 
+/// What an instruction takes.
+#[derive(Clone, Copy, Default)]
+struct Cost {
+    cycles: u64,
+    /// More, where it is a conditional branch that is taken.
+    taken: u64,
+}
+
+/// A core's cycles, given an instruction's two half words.
+type Model = fn(u16, u16) -> Cost;
+
 #[derive(Clone, Copy, PartialEq)]
 enum Mark {
     Frame,
@@ -72,7 +84,7 @@ enum Mark {
 struct Site {
     address: u64,
     size: u64,
-    cost: m0plus::Cost,
+    cost: Cost,
     mark: Option<Mark>,
     stage: Option<usize>,
     count: Count,
@@ -80,7 +92,7 @@ struct Site {
 
 struct Counter {
     out: String,
-    cycles: bool,
+    model: Option<Model>,
     riscv: bool,
     /// Start, end and stage, sorted.
     ranges: Vec<(u64, u64, usize)>,
@@ -107,7 +119,7 @@ impl Counter {
     const fn new() -> Self {
         Counter {
             out: String::new(),
-            cycles: false,
+            model: None,
             riscv: false,
             ranges: Vec::new(),
             sites: Vec::new(),
@@ -138,7 +150,8 @@ impl Counter {
                     self.ranges = text.lines().map(range).collect::<Option<_>>().ok_or(format!("{path}: not ranges"))?;
                     self.ranges.sort_unstable();
                 }
-                Some(("model", "m0plus")) => self.cycles = true,
+                Some(("model", "m0plus")) => self.model = Some(|first, _| m0plus::cost(first)),
+                Some(("model", "m4")) => self.model = Some(m4::cost),
                 _ => return Err(format!("unknown argument {argument}")),
             }
         }
@@ -153,7 +166,7 @@ impl Counter {
         if let Some(&site) = self.known.get(&address) {
             return site;
         }
-        let half = u16::from_le_bytes([code[0], code[1]]);
+        let [half, second] = [[code[0], code[1]], [code[2], code[3]]].map(u16::from_le_bytes);
         let mark = match (self.riscv, half, u32::from_le_bytes(code)) {
             (false, 0x46c9, _) | (true, _, 0x0010_2013) => Some(Mark::Frame),
             (false, 0x46d2, _) | (true, _, 0x0020_2013) => Some(Mark::Line),
@@ -163,7 +176,7 @@ impl Counter {
             (false, 0x46ed, _) | (true, _, 0x0060_2013) => Some(Mark::Part("run")),
             _ => None,
         };
-        let cost = if self.cycles { m0plus::cost(half) } else { m0plus::Cost::default() };
+        let cost = self.model.map_or(Cost::default(), |model| model(half, second));
         let after = self.ranges.partition_point(|&(start, ..)| start <= address);
         let range = after.checked_sub(1).map(|at| self.ranges[at]).filter(|&(_, end, _)| address < end);
         let stage = range.map(|(.., stage)| stage);

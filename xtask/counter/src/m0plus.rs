@@ -1,13 +1,7 @@
 //! Cycles of the Cortex-M0+: its Technical Reference Manual (r0p1), table 3-1, with zero wait states and the
 //! single-cycle multiplier. Loads and stores take 2 cycles: the single-cycle I/O port is not modelled.
 
-/// What an instruction takes.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Cost {
-    pub(crate) cycles: u64,
-    /// More, where it is a conditional branch that is taken.
-    pub(crate) taken: u64,
-}
+use crate::Cost;
 
 /// The cost of the instruction whose first half word is `code`.
 pub(crate) fn cost(code: u16) -> Cost {

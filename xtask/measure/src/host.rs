@@ -8,7 +8,16 @@ fn main() {
     for step in 0..Scene::FRAMES {
         let mut sum = Checksum::new();
         assert!(scene.prepare(step), "frame {step} has no room");
+        #[cfg(feature = "ways")]
+        let fits = scene.draw_all_ways(step, |row| {
+            sum.row(row);
+            all.row(row);
+        });
+        #[cfg(feature = "ways")]
+        assert!(fits, "frame {step} has no room");
+        #[cfg(not(feature = "ways"))]
         let (mut lines, row) = scene.lines();
+        #[cfg(not(feature = "ways"))]
         for y in 0..Scene::LINES {
             let line = Scene::shade(&mut lines, y, row);
             assert_eq!(line.dropped, 0, "frame {step}, line {y}");

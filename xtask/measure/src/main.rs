@@ -37,7 +37,16 @@ fn main() -> ! {
         }
         let mut fits = scene.prepare(step);
         mark::pause();
+        #[cfg(feature = "ways")]
+        {
+            fits &= scene.draw_all_ways(step, |row| {
+                sum.row(row);
+                all.row(row);
+            });
+        }
+        #[cfg(not(feature = "ways"))]
         let (mut lines, row) = scene.lines();
+        #[cfg(not(feature = "ways"))]
         for y in 0..Scene::LINES {
             if !cfg!(feature = "parts") {
                 mark::line();

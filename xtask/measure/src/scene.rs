@@ -54,6 +54,10 @@ type Seeing = beamshade::DepthLine<WIDTH>;
 #[cfg(not(feature = "depth-line"))]
 type Seeing = beamshade::Spanning;
 
+#[cfg(feature = "ways")]
+#[path = "ways.rs"]
+mod ways;
+
 /// T880: 240×240 pixels, one directional light; the same at 320×240 pixels, with finer meshes, and with a sphere of 80 triangles that
 /// fills the picture.
 #[cfg(any(
@@ -120,6 +124,24 @@ mod setting {
     }
 }
 
+/// Random scenes, T880 and three teapots under one directional light.
+#[cfg(feature = "ways")]
+mod setting {
+    use beamshade::Light;
+
+    pub(super) type Source = Light;
+    pub(super) const LIGHTS: usize = 1;
+    pub(super) const WIDTH: usize = 240;
+    pub(super) const HEIGHT: usize = 240;
+    pub(super) const FRAMES: u16 = super::ways::FRAMES;
+    pub(super) const SEEN: usize = super::ways::SEEN;
+    pub(super) const ACTIVE: usize = 512;
+
+    pub(super) fn lights() -> [Light; LIGHTS] {
+        [Light::directional([-0.5, 0.7, 0.6])]
+    }
+}
+
 /// The same under four directional lights.
 #[cfg(feature = "t880-four-lights")]
 mod setting {
@@ -178,7 +200,14 @@ mod setting {
 
 use setting::{lights, Source, ACTIVE, FRAMES, HEIGHT, LIGHTS, SEEN, WIDTH};
 
-const OBJECTS: usize = if cfg!(feature = "three-objects") { 3 } else { 1 };
+const OBJECTS: usize = if cfg!(feature = "three-objects") {
+    3
+} else if cfg!(feature = "ways") {
+    // As many vertices as the larger teapot has, and more.
+    7
+} else {
+    1
+};
 
 /// Panes of two triangles before them.
 const PANES: usize = if cfg!(feature = "pane") { 1 } else { 0 };
@@ -206,7 +235,13 @@ static PANE: beamshade::Mesh<'static> = {
 };
 
 /// Room for the parts of split triangles, and for their vertices.
-const MADE: usize = if cfg!(any(feature = "regular-split", feature = "highlight-split")) { 8192 } else { 0 };
+const MADE: usize = if cfg!(any(feature = "regular-split", feature = "highlight-split")) {
+    8192
+} else if cfg!(feature = "ways") {
+    1024
+} else {
+    0
+};
 const CORNERS: usize = 2 * MADE;
 
 type TeapotFrame = Frame<
@@ -231,6 +266,8 @@ pub struct Scene {
     frame: TeapotFrame,
     scanner: TeapotScanner,
     row: Row,
+    #[cfg(feature = "ways")]
+    tables: ways::Tables,
 }
 
 impl Scene {
@@ -246,16 +283,22 @@ impl Scene {
 
     /// A scene of which no frame was prepared yet.
     pub const fn new() -> Self {
-        Scene { frame: Frame::new(), scanner: Scanner::new(), row: [Rgb565::BLACK; WIDTH] }
+        Scene {
+            frame: Frame::new(),
+            scanner: Scanner::new(),
+            row: [Rgb565::BLACK; WIDTH],
+            #[cfg(feature = "ways")]
+            tables: ways::Tables::new(),
+        }
     }
 
     /// All that is done once for a frame; false if something had no room.
     #[inline(never)]
     pub fn prepare(&mut self, step: u16) -> bool {
-        let camera = Camera::new(Size::new(WIDTH as u32, HEIGHT as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
-        let turn = Turn::degrees(i32::from(step) * 360 / i32::from(FRAMES));
-        let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(turn);
-        self.frame.begin(&camera, &lights()).is_ok() && self.add_all(rotation) && self.add_panes()
+        #[cfg(feature = "ways")]
+        return if step < ways::RANDOM { self.prepare_random(step) } else { self.prepare_standard(step) };
+        #[cfg(not(feature = "ways"))]
+        self.begin(i32::from(step) * 360 / i32::from(FRAMES)).is_some_and(|rotation| self.add_all(rotation) && self.add_panes())
     }
 
     #[cfg(not(feature = "pane"))]
@@ -268,15 +311,27 @@ impl Scene {
         self.frame.add(&PANE, &Pose::turned_y(Turn::degrees(17)).scaled(0.3).at([0.15, 0.1, 1.0])).is_ok()
     }
 
-    #[cfg(not(feature = "three-objects"))]
+    /// Begins a frame; gives how the scene is turned.
+    fn begin(&mut self, degrees: i32) -> Option<Rotation> {
+        let camera = Camera::new(Size::new(WIDTH as u32, HEIGHT as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
+        let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(Turn::degrees(degrees));
+        self.frame.begin(&camera, &lights()).is_ok().then_some(rotation)
+    }
+
+    #[cfg(not(any(feature = "three-objects", feature = "ways")))]
     fn add_all(&mut self, rotation: Rotation) -> bool {
         let pose = Pose::turned(rotation);
         self.add(&if cfg!(feature = "i80") { pose.scaled(1.25) } else { pose })
     }
 
-    /// The teapot thrice, close to each other, the second one turned over and the third one on its side.
     #[cfg(feature = "three-objects")]
     fn add_all(&mut self, rotation: Rotation) -> bool {
+        self.add_three(rotation)
+    }
+
+    /// The teapot thrice, close to each other, the second one turned over and the third one on its side.
+    #[cfg(any(feature = "three-objects", feature = "ways"))]
+    fn add_three(&mut self, rotation: Rotation) -> bool {
         let pose = |turned, at| Pose::turned(rotation * turned).scaled(0.75).at(at);
         self.add(&pose(Rotation::NONE, [-0.2, 0.1, 0.0]))
             && self.add(&pose(Rotation::x(Turn::degrees(180)), [0.2, 0.0, 0.1]))

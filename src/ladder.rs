@@ -1,0 +1,239 @@
+//! Degrade, never tear: cheaper methods for the lines that would be late, known before the first one is drawn.
+//!
+//! A [`Plan`] walks down a picture without drawing it, and finds for each line how far it has to go down a ladder of methods until
+//! its bound keeps the line period: one rung for the far triangles on it, then that rung for the near ones too, then the next one for
+//! the far ones, and so on. A triangle is shaded by one method: that which the line asks for that is farthest down, of all that it
+//! crosses. So it is set up once, it has no stripes, and the pixels are the same in whatever order lines are drawn. No clock has a
+//! say: the same picture and period give the same pixels everywhere.
+
+use heapless::Vec;
+
+use crate::{
+    model::light::LightSource,
+    price::Price,
+    scan::{
+        active::Active,
+        most::{Cover, Known},
+        picture::{Picture, Steps},
+        vertex::Vertex,
+        visibility::Visibility,
+    },
+    scanner::Lines,
+    shade::{
+        choose::{ByRung, Choose},
+        duff_barycentric::DuffBarycentric,
+        flat::Flat,
+        gouraud::Gouraud,
+        quadratic_intensity::QuadraticIntensity,
+        Shade,
+    },
+    work::Work,
+};
+
+/// The ladder from the default by quadratics and Gouraud down to flat: a method for a [`Scanner`](crate::Scanner).
+pub type Degrading = Choose<DuffBarycentric, Choose<QuadraticIntensity, Choose<Gouraud, Flat, ByRung<3>>, ByRung<2>>, ByRung<1>>;
+
+/// How many facets were set up by cheaper methods: on the first rung below the top, the second, and the third.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Degraded(pub [u16; 3]);
+
+impl Degraded {
+    pub(crate) fn count(&mut self, rung: u8) {
+        let Self(counts) = self;
+        if let Some(count) = usize::from(rung).checked_sub(1).and_then(|rung| counts.get_mut(rung)) {
+            *count = count.saturating_add(1);
+        }
+    }
+}
+
+/// What the lines of a picture take at most, and how far down the ladder each of them goes for that: 5 bytes a line.
+///
+/// ```
+/// # use beamshade::{Camera, Degrading, Frame, Light, Plan, Price, Scanner, Schedule};
+/// # use embedded_graphics::{geometry::Size, pixelcolor::{Rgb565, RgbColor}};
+/// # let mut frame = Frame::<8, 8, 48>::new();
+/// # frame.begin(&Camera::new(Size::new(64, 48)), &[Light::OFF])?;
+/// # let mut row = [Rgb565::BLACK; 64];
+/// const PERIOD: u32 = 8000; // cycles
+/// let mut scanner = Scanner::<72, Degrading>::new();
+/// let mut plan = Plan::<48>::new();
+/// plan.make(scanner.start(frame.picture()), &Price::M0_PLUS_DEGRADING, PERIOD);
+/// let schedule = Schedule::new(plan.bounds().iter().copied(), PERIOD);
+/// assert_eq!((plan.late(), schedule.look_ahead), (0, 1));
+/// let mut lines = scanner.start(plan.degrade(frame.picture()));
+/// for y in 0..48 {
+///     lines.line(y, &mut row);
+/// }
+/// assert_eq!(lines.degraded().0, [0; 3]);
+/// # Ok::<(), beamshade::Full>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Plan<const LINES: usize> {
+    bounds: Vec<u32, LINES>,
+    /// How far down each line is.
+    steps: Vec<u8, LINES>,
+    middle: u16,
+    late: u16,
+}
+
+impl<const LINES: usize> Plan<LINES> {
+    /// A plan for a picture without lines.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { bounds: Vec::new(), steps: Vec::new(), middle: 0, late: 0 }
+    }
+
+    /// Makes the plan for a picture, given the price list of each method from the top of the ladder down, and the line period in the
+    /// same unit; with one list, it tells the bounds alone. Costs the walk down the picture, without comparing depths or shading.
+    ///
+    /// Bounds hold under the conditions of [`Picture::most`], one line drawn after the other, from the first one on.
+    pub fn make<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>(
+        &mut self,
+        mut lines: Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>,
+        prices: &[Price],
+        period: u32,
+    ) {
+        lines.rewind();
+        let picture = *lines.picture();
+        self.bounds.clear();
+        self.steps.clear();
+        (self.middle, self.late) = (middle(&picture), 0);
+        let last = 2 * prices.len().saturating_sub(1).min(3) as u8;
+        let mut before = 0;
+        for y in 0..picture.geometry.height().min(LINES as u16) {
+            let Some((known, crossing)) = self.known(&mut lines, &picture, y, before) else { break };
+            before = crossing;
+            let (mut step, mut bound) = (0, known.bound(prices, 0));
+            while bound > period && step < last {
+                step += 1;
+                bound = known.bound(prices, step);
+            }
+            self.late = self.late.saturating_add((bound > period).into());
+            // There is room for both.
+            let _ = self.bounds.push(bound);
+            let _ = self.steps.push(step);
+        }
+    }
+
+    /// What each line takes at most; for a [`Schedule`](crate::Schedule).
+    #[must_use]
+    pub fn bounds(&self) -> &[u32] {
+        &self.bounds
+    }
+
+    /// How far down the ladder each line is: 0 where nothing is degraded, 1 if the far half of the picture goes down a rung, 2 if all of
+    /// it does, 3 if the far half goes down another one, and so on.
+    #[must_use]
+    pub fn steps(&self) -> &[u8] {
+        &self.steps
+    }
+
+    /// Lines that may be late even at the foot of the ladder.
+    #[must_use]
+    pub const fn late(&self) -> u16 {
+        self.late
+    }
+
+    /// The picture, to be drawn as planned by a method that asks for it, such as [`Degrading`].
+    #[must_use]
+    pub fn degrade<'f, 'm, const LIGHTS: usize, L: LightSource>(
+        &'f self,
+        picture: Picture<'f, 'm, LIGHTS, L>,
+    ) -> Picture<'f, 'm, LIGHTS, L> {
+        Picture { steps: Steps { steps: &self.steps, middle: self.middle }, ..picture }
+    }
+
+    /// What is known of a line, and the number of triangles that cross it, given that of the line above.
+    fn known<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>(
+        &self,
+        lines: &mut Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>,
+        picture: &Picture<'_, '_, LIGHTS, L>,
+        y: u16,
+        before: u32,
+    ) -> Option<(Halves, u32)> {
+        let geometry = &picture.geometry;
+        let width = geometry.width() as u16;
+        let (extents, slots) = lines.crossing(y)?;
+        let (mut here, mut near) = (Cover::NONE, Cover::NONE);
+        let is_far = |active: &Active| {
+            let [_, near] = active.reach();
+            near <= i32::from(self.middle)
+        };
+        for active in extents.iter().filter_map(|extent| slots.get(usize::from(extent.slot()))) {
+            here.add(active.columns(width));
+            if !is_far(active) {
+                near.add(active.columns(width));
+            }
+        }
+        let mut known = Known::default();
+        let mut near_facets = 0;
+        for id in geometry.starting(y) {
+            known.work.entered += 1;
+            known.work.long += geometry.corners(id).map_or(0, |corners| Active::long(corners, y, false));
+        }
+        for extent in extents {
+            let Some(active) = slots.get_mut(usize::from(extent.slot())) else { continue };
+            let covering = known.add(active, &here, width);
+            if active.turned_on(y, geometry.vertices) {
+                known.work.turned += 1;
+                known.work.long += geometry.corners(active.id).map_or(0, |corners| Active::long(corners, y, true));
+            }
+            // Until now no facets were set up: their numbers say what is known of each triangle.
+            if covering.overlaps && active.facet & EXACT_KNOWN == 0 {
+                active.facet |= EXACT_KNOWN | if active.deepen(geometry) > 0 { EXACT } else { 0 };
+            }
+            known.work.exact += u32::from(covering.overlaps && active.facet & EXACT != 0);
+            if covering.is_there && active.facet & SEEN == 0 {
+                known.work.facets += 1;
+                let lines = picture.lines(active.id).map_or(0, |[start, _, end]| end.saturating_sub(start));
+                known.work.asked += u32::from(lines);
+                near_facets += u32::from(!is_far(active));
+            }
+            if covering.is_there && !covering.overlaps {
+                active.facet |= SEEN;
+            }
+        }
+        let crossing = known.work.active;
+        known.work.stepped = crossing.saturating_sub(known.work.entered);
+        let ended = before.saturating_sub(known.work.stepped);
+        let all = known.finish(picture, &here, ended);
+        let [pixels, _] = near.counts();
+        let spans = all.spans.min(pixels);
+        let near = Work { facets: near_facets, spans, started: spans, runs: spans, pixels, ..Work::NONE };
+        Some((Halves { all, near }, crossing))
+    }
+}
+
+impl<const LINES: usize> Default for Plan<LINES> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// What a plan knows of a triangle: that it is seen, so that its facet is there; and whether its depths take 64-bit divisions.
+const SEEN: u16 = 1;
+const EXACT_KNOWN: u16 = 2;
+const EXACT: u16 = 4;
+
+/// What a line has at most to do, and of that what is, at most, for near triangles.
+struct Halves {
+    all: Work,
+    near: Work,
+}
+
+impl Halves {
+    /// What that takes at most so many steps down the ladder, near triangles being on this rung or below, far ones on that or below.
+    fn bound(&self, prices: &[Price], step: u8) -> u32 {
+        let [own, rest] = self.all.by_method();
+        let [near, far] = [step / 2, step.div_ceil(2)].map(|rung| Price::dearest(prices.get(rung.into()..).unwrap_or_default()));
+        let own = near.bound(self.near).saturating_add(far.bound(own - self.near));
+        Price::dearest(prices).of(rest).saturating_add(own)
+    }
+}
+
+/// Halfway between the farthest and the nearest corner of a picture, the upper 16 bits of the nearness.
+fn middle<const LIGHTS: usize, L: LightSource>(picture: &Picture<'_, '_, LIGHTS, L>) -> u16 {
+    let corners = picture.geometry.kept.iter().filter_map(|kept| picture.geometry.corners(kept.triangle)).flatten();
+    let (far, near) = corners.map(Vertex::nearness).fold((u32::MAX, 0), |(far, near), w| (far.min(w), near.max(w)));
+    ((u64::from(far) + u64::from(near)) >> 9) as u16
+}

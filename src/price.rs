@@ -1,0 +1,55 @@
+//! What one of each piece of work takes on a core.
+
+use crate::work::Work;
+
+/// What one of each count of [`Work`] takes at most, in sixteenths of a cycle of a core.
+///
+/// A cost is never below what is counted, under the conditions of the price list: one directional light,
+/// [`Spanning`](crate::Spanning), pixels in `Rgb565` or its two bytes, `opt-level = 3` and `lto`, and a core without wait states: what a flash
+/// and its caches add is not in it, nor are interrupts, nor the transfer of rows, nor [smooth lines](crate::Lines::smooth_line), nor lines
+/// for which the scanner has no room. Cycles are those of the Technical Reference Manuals of Cortex-M0+ and Cortex-M4, of the latter
+/// with the most that a branch or a division may take.
+///
+/// Prices are the least ones, and 8 % more (12 % up to the visible spans), at which none of the lines of 1000 random scenes costs less than was counted: `cargo xtask
+/// cost --calibrate` makes them anew, and checks them on 1000 other scenes and on the standard ones. They go with the compiler, and with
+/// changes of what they price.
+///
+/// ```
+/// use beamshade::{Price, Work};
+///
+/// let price = Price(Work { lines: 400 * 16, pixels: 30 * 16, ..Work::NONE });
+/// assert_eq!(price.of(Work { lines: 1, pixels: 100, ..Work::NONE }), 3400);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Price(pub Work);
+
+impl Price {
+    /// What that much work takes at most, in cycles; 2²⁸ − 1 if it is more.
+    #[must_use]
+    pub fn of(&self, work: Work) -> u32 {
+        let Self(prices) = self;
+        let parts = work.counts().into_iter().zip(prices.counts());
+        parts.fold(15, |sum: u32, (count, price)| sum.saturating_add(count.saturating_mul(price))) >> 4
+    }
+
+    /// What a line with at most so much to do takes at most: pixels of whatever kind, known before facets are set up, being of the
+    /// dearest one.
+    #[must_use]
+    pub fn bound(&self, most: Work) -> u32 {
+        let Self(prices) = *self;
+        let dearest = prices.pixels.max(prices.pixels_1).max(prices.pixels_2).max(prices.pixels_3);
+        Self(Work { pixels: dearest, pixels_1: dearest, pixels_2: dearest, pixels_3: dearest, ..prices }).of(most)
+    }
+
+    /// For each piece of work the dearest of several prices.
+    #[must_use]
+    pub fn dearest(prices: &[Self]) -> Self {
+        let mut dearest = [0; Work::COUNT];
+        for Self(prices) in prices {
+            for (dearest, price) in dearest.iter_mut().zip(prices.counts()) {
+                *dearest = price.max(*dearest);
+            }
+        }
+        Self(Work::from(dearest))
+    }
+}

@@ -1,0 +1,260 @@
+//! What a line has at most to do, known before it is resolved.
+
+use core::ops::Range;
+
+use super::{active::Active, bucket::TriangleId, picture::Picture};
+use crate::{model::light::LightSource, price::Price, work::Work};
+
+impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
+    /// What line y has at most to do: to be drawn or baked by [`Spanning`](crate::Spanning), after the line above it, by a scanner with
+    /// room for all its triangles. Nothing below the picture.
+    ///
+    /// Known from what each triangle covers on it and on the line above. Who is in front is not known, so it is taken that all depths
+    /// have to be compared where triangles overlap, that each overlapped pixel parts a span, and that facets are set up late but for
+    /// triangles that stood alone on the line above. Looks at all triangles, and sets up the edges of those that cross the line
+    /// four times.
+    #[must_use]
+    pub fn most(&self, y: u16) -> Work {
+        let geometry = &self.geometry;
+        if y >= geometry.height() {
+            return Work::NONE;
+        }
+        let width = geometry.width() as u16;
+        let cover = |y: Option<u16>| {
+            let mut cover = Cover::NONE;
+            y.into_iter().flat_map(|y| self.crossing(y)).for_each(|crossing| cover.add(crossing.active.columns(width)));
+            cover
+        };
+        let (above, here) = (cover(y.checked_sub(1)), cover(Some(y)));
+
+        let mut known = Known::default();
+        for mut crossing in self.crossing(y) {
+            let (starts, turns) = (crossing.starts == y, crossing.turns == y);
+            known.work.entered += u32::from(starts);
+            known.work.stepped += u32::from(!starts);
+            known.work.turned += u32::from(!starts && turns);
+            if starts || turns {
+                let corners = geometry.corners(crossing.active.id);
+                known.work.long += corners.map_or(0, |corners| Active::long(corners, y, !starts));
+            }
+            let covering = known.add(&crossing.active, &here, width);
+            if covering.overlaps {
+                known.work.exact += crossing.active.deepen(geometry);
+            }
+            if covering.is_there {
+                let before = if starts { None } else { self.crossing_of(crossing.active.id, y - 1) };
+                let before = before.map(|crossing| crossing.active.columns(width));
+                let was_seen = before.is_some_and(|columns| !columns.is_empty() && above.is_single(columns));
+                if !was_seen {
+                    known.work.facets += 1;
+                    known.work.asked += u32::from(crossing.ends - crossing.starts);
+                }
+            }
+        }
+        let ending = self.ending(y);
+        known.finish(self, &here, ending)
+    }
+
+    /// What line y takes at most, under the conditions of [`most`](Self::most).
+    #[must_use]
+    pub fn bound(&self, y: u16, price: &Price) -> u32 {
+        price.bound(self.most(y))
+    }
+
+    /// What all lines take at most, one by one, from the first to the last: for a [`Schedule`](crate::Schedule).
+    pub fn bounds<'a>(&'a self, price: &'a Price) -> impl Iterator<Item = u32> + Clone + 'a {
+        (0..self.geometry.height()).map(|y| self.bound(y, price))
+    }
+
+    /// The triangles that cross a line.
+    fn crossing(&self, y: u16) -> impl Iterator<Item = Crossing> + '_ {
+        self.geometry.kept.iter().filter_map(move |kept| self.crossing_of(kept.triangle, y))
+    }
+
+    /// A triangle on a line; none if it does not cross it.
+    fn crossing_of(&self, id: TriangleId, y: u16) -> Option<Crossing> {
+        let [starts, turns, ends] = self.lines(id)?;
+        if !(starts..ends).contains(&y) {
+            return None;
+        }
+        let mut active = Active::NONE;
+        active.begin(id, y, &self.geometry)?;
+        Some(Crossing { active, starts, turns, ends })
+    }
+
+    /// The first lines of a triangle below its corners, from top to bottom; those above the picture count as its first.
+    pub(crate) fn lines(&self, id: TriangleId) -> Option<[u16; 3]> {
+        let mut lines = self.geometry.corners(id)?.map(|corner| corner.pixel().y.max(0) as u16);
+        lines.sort_unstable();
+        Some(lines)
+    }
+
+    /// How far down the ladder the lines are that a triangle crosses; none if nothing is degraded.
+    pub(crate) fn steps_of(&self, id: TriangleId) -> &[u8] {
+        let steps = self.steps.steps;
+        let [start, _, end] = self.lines(id).unwrap_or_default().map(|line| steps.len().min(line.into()));
+        steps.get(start..end).unwrap_or_default()
+    }
+
+    /// Triangles that cross the line above, and end there.
+    fn ending(&self, y: u16) -> u32 {
+        let ends = |id| self.lines(id).is_some_and(|[starts, _, ends]| starts < y && ends == y);
+        self.geometry.kept.iter().filter(|kept| ends(kept.triangle)).count() as u32
+    }
+}
+
+/// A triangle on a line that it crosses.
+struct Crossing {
+    active: Active,
+    /// The first line, and the first one below the middle corner.
+    starts: u16,
+    turns: u16,
+    /// The first one below the last corner.
+    ends: u16,
+}
+
+impl Active {
+    /// The pixels that it covers in a picture of that width.
+    pub(crate) fn columns(&self, width: u16) -> Range<u16> {
+        let (start, end) = self.extent();
+        let [start, end] = [start, end].map(|x| (x.max(0) as u16).min(width));
+        start..end
+    }
+}
+
+/// What is known of a line before it is resolved: counts, of which some follow from others in the end.
+#[derive(Default)]
+pub(crate) struct Known {
+    pub(crate) work: Work,
+    /// Triangles that cover pixels; that begin or end outside of the picture; that overlap others.
+    seen: u32,
+    outside: u32,
+    overlapping: u32,
+}
+
+/// How a triangle covers a line: whether it covers pixels, and some that another one covers too.
+pub(crate) struct Covering {
+    pub(crate) is_there: bool,
+    pub(crate) overlaps: bool,
+}
+
+impl Known {
+    /// A triangle that crosses the line.
+    pub(crate) fn add(&mut self, active: &Active, here: &Cover, width: u16) -> Covering {
+        self.work.active += 1;
+        let (start, end) = active.extent();
+        self.outside += u32::from(start < end && (start < 0 || end > width as i16));
+        let columns = active.columns(width);
+        let is_there = !columns.is_empty();
+        let overlaps = is_there && !here.is_single(columns);
+        self.seen += u32::from(is_there);
+        self.overlapping += u32::from(overlaps);
+        Covering { is_there, overlaps }
+    }
+
+    /// All that follows, where so many triangles ended on the line above.
+    pub(crate) fn finish<const LIGHTS: usize, L: LightSource>(
+        self,
+        picture: &Picture<'_, '_, LIGHTS, L>,
+        here: &Cover,
+        ended: u32,
+    ) -> Work {
+        let Self { mut work, seen, outside, overlapping } = self;
+        let (geometry, width) = (&picture.geometry, picture.geometry.width() as u16);
+        (work.walked, work.lines, work.gradients) = (1, 1, picture.background.is_gradient().into());
+        work.deepened = overlapping;
+        // Each of those that stay may pass all others; those that start come eight at a time, in order.
+        let (stay, enter) = (work.stepped, work.entered);
+        work.moved = stay.saturating_mul(stay.saturating_sub(1)) / 2 + enter.div_ceil(8).saturating_mul(work.active) + 4 * enter;
+        (work.stepped, work.ended) = (work.stepped + ended, ended);
+
+        let ([covered, shared], gaps) = (here.counts(), here.gaps(width));
+        // The pixels of all triangles where they overlap: each election is at one of its own, among those that cover it.
+        let overlap = here.pixels - (covered - shared);
+        work.pixels = covered;
+        work.filled = u32::from(width) - covered;
+        work.gaps = gaps;
+        // What parts a triangle's spans is a pixel of it that is hidden.
+        work.spans = (seen + here.pixels - covered).min(covered);
+        (work.runs, work.started) = (work.spans, work.spans);
+        if overlapping + outside > 0 {
+            // Times that the table is full.
+            let full = work.spans.checked_div(work.active).unwrap_or(0);
+            // Two cross each other once at most, and each that begins overlaps with all but one of those that cover its first pixel.
+            let deep = if here.is_deep() { overlapping } else { overlapping.min(2) };
+            let crossings = shared.min(overlapping.saturating_mul(deep.saturating_sub(1)));
+            // One is in front until it ends, another one begins, or it is crossed.
+            work.fronts = 3 * (overlapping + outside) + crossings + 2 * full + 2;
+            let elected = (overlap + full.saturating_mul(overlapping)).min(work.fronts.saturating_mul(deep));
+            // Some once more, after they ended.
+            work.looked = work.active + overlapping + outside + elected;
+            work.compared = overlapping + 2 * elected;
+        }
+        work.dressed = work.spans.min(if geometry.searched() > 2 { u32::MAX } else { 1 });
+        work.searched = (work.entered + work.facets + work.spans + 1).saturating_mul(geometry.searched());
+        work
+    }
+}
+
+/// A bit for each of the 1024 pixels that a line has at most.
+const WORDS: usize = 1024 / 32;
+
+/// Pixels of a line that triangles cover.
+pub(crate) struct Cover {
+    /// By one or more, by two or more, and by three or more.
+    once: [u32; WORDS],
+    twice: [u32; WORDS],
+    thrice: [u32; WORDS],
+    /// The sum of all triangles'.
+    pixels: u32,
+}
+
+impl Cover {
+    /// None.
+    pub(crate) const NONE: Self = Self { once: [0; WORDS], twice: [0; WORDS], thrice: [0; WORDS], pixels: 0 };
+
+    pub(crate) fn add(&mut self, columns: Range<u16>) {
+        self.pixels += columns.len() as u32;
+        for (((once, twice), thrice), bits) in self.once.iter_mut().zip(&mut self.twice).zip(&mut self.thrice).zip(words(columns))
+        {
+            *thrice |= *twice & bits;
+            *twice |= *once & bits;
+            *once |= bits;
+        }
+    }
+
+    /// Whether none of these pixels is covered by two.
+    pub(crate) fn is_single(&self, columns: Range<u16>) -> bool {
+        self.twice.iter().zip(words(columns)).all(|(twice, bits)| twice & bits == 0)
+    }
+
+    /// Whether a pixel is covered by three.
+    fn is_deep(&self) -> bool {
+        self.thrice.iter().any(|thrice| *thrice != 0)
+    }
+
+    /// Pixels covered by one or more, and by two or more.
+    pub(crate) fn counts(&self) -> [u32; 2] {
+        [&self.once, &self.twice].map(|words| words.iter().map(|word| word.count_ones()).sum())
+    }
+
+    /// Gaps between covered pixels in a line of that width.
+    fn gaps(&self, width: u16) -> u32 {
+        let (mut gaps, mut before) = (0, 1);
+        for (once, bits) in self.once.iter().zip(words(0..width)) {
+            let starts = !once & bits & (once << 1 | before);
+            gaps += starts.count_ones();
+            before = once >> 31;
+        }
+        gaps
+    }
+}
+
+/// The bits of these pixels, word by word.
+fn words(Range { start, end }: Range<u16>) -> impl Iterator<Item = u32> {
+    let below = |x: u16, word: usize| {
+        let bits = (usize::from(x)).saturating_sub(32 * word).min(32) as u32;
+        u32::MAX.checked_shr(32 - bits).unwrap_or(0)
+    };
+    (0..WORDS).map(move |word| below(end, word) & !below(start, word))
+}
