@@ -9,7 +9,7 @@ use crate::{
         light::{Light, LightSource},
         material::{Color, Material},
     },
-    price::Price,
+    price::{cycles, Price},
     scan::{active::Active, table::Span, visibility::Visibility},
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
@@ -173,9 +173,9 @@ pub(crate) fn sum_of_rungs(prices: &[Price], all: Work, on: impl Fn(usize) -> Wo
     let [_, rest] = all.by_method();
     let own = prices.iter().enumerate().map(|(rung, price)| {
         let [own, _] = on(rung).by_method();
-        price.of(own)
+        price.sixteenths(own)
     });
-    own.fold(Price::dearest(prices).of(rest), u32::saturating_add)
+    cycles(own.chain([Price::dearest(prices).sixteenths(rest)]))
 }
 
 /// Spans on their way into a table.

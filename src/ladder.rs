@@ -10,7 +10,7 @@ use heapless::Vec;
 
 use crate::{
     model::light::LightSource,
-    price::Price,
+    price::{cycles, Price},
     scan::{
         active::Active,
         most::{Cover, Known},
@@ -226,8 +226,8 @@ impl Halves {
     fn bound(&self, prices: &[Price], step: u8) -> u32 {
         let [own, rest] = self.all.by_method();
         let [near, far] = [step / 2, step.div_ceil(2)].map(|rung| Price::dearest(prices.get(rung.into()..).unwrap_or_default()));
-        let own = near.bound(self.near).saturating_add(far.bound(own - self.near));
-        Price::dearest(prices).of(rest).saturating_add(own)
+        let [near, far] = [near.of_any_kind().sixteenths(self.near), far.of_any_kind().sixteenths(own - self.near)];
+        cycles([near, far, Price::dearest(prices).sixteenths(rest)])
     }
 }
 

@@ -5,7 +5,7 @@ use crate::work::Work;
 /// What one of each count of [`Work`] takes at most, in sixteenths of a cycle of a core.
 ///
 /// A cost is never below what is counted, under the conditions of the price list: one directional light,
-/// [`Spanning`](crate::Spanning), pixels in `Rgb565` or its two bytes, `opt-level = 3` and `lto`, and a core without wait states: what a flash
+/// [`Spanning`](crate::Spanning), pixels in `Rgb565` or its two bytes, `opt-level = 2` and `lto`, and a core without wait states: what a flash
 /// and its caches add is not in it, nor are interrupts, nor the transfer of rows, nor [smooth lines](crate::Lines::smooth_line), nor lines
 /// for which the scanner has no room. Cycles are those of the Technical Reference Manuals of Cortex-M0+ and Cortex-M4, of the latter
 /// with the most that a branch or a division may take.
@@ -27,18 +27,28 @@ impl Price {
     /// What that much work takes at most, in cycles; 2²⁸ − 1 if it is more.
     #[must_use]
     pub fn of(&self, work: Work) -> u32 {
+        cycles([self.sixteenths(work)])
+    }
+
+    /// The same in sixteenths of a cycle.
+    pub(crate) fn sixteenths(&self, work: Work) -> u32 {
         let Self(prices) = self;
         let parts = work.counts().into_iter().zip(prices.counts());
-        parts.fold(15, |sum: u32, (count, price)| sum.saturating_add(count.saturating_mul(price))) >> 4
+        parts.fold(0, |sum: u32, (count, price)| sum.saturating_add(count.saturating_mul(price)))
     }
 
     /// What a line with at most so much to do takes at most: pixels of whatever kind, known before facets are set up, being of the
     /// dearest one.
     #[must_use]
     pub fn bound(&self, most: Work) -> u32 {
+        self.of_any_kind().of(most)
+    }
+
+    /// The price list with all pixels at the price of the dearest kind.
+    pub(crate) fn of_any_kind(&self) -> Self {
         let Self(prices) = *self;
         let dearest = prices.pixels.max(prices.pixels_1).max(prices.pixels_2).max(prices.pixels_3);
-        Self(Work { pixels: dearest, pixels_1: dearest, pixels_2: dearest, pixels_3: dearest, ..prices }).of(most)
+        Self(Work { pixels: dearest, pixels_1: dearest, pixels_2: dearest, pixels_3: dearest, ..prices })
     }
 
     /// For each piece of work the dearest of several prices.
@@ -52,4 +62,9 @@ impl Price {
         }
         Self(Work::from(dearest))
     }
+}
+
+/// A sum of sixteenths in whole cycles, rounded up.
+pub(crate) fn cycles(parts: impl IntoIterator<Item = u32>) -> u32 {
+    parts.into_iter().fold(15, u32::saturating_add) >> 4
 }

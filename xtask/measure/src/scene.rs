@@ -301,7 +301,7 @@ impl Scene {
         self.begin(i32::from(step) * 360 / i32::from(FRAMES)).is_some_and(|rotation| self.add_all(rotation) && self.add_panes())
     }
 
-    #[cfg(not(feature = "pane"))]
+    #[cfg(not(any(feature = "pane", feature = "ways")))]
     const fn add_panes(&self) -> bool {
         true
     }
