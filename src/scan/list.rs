@@ -8,7 +8,7 @@ use super::{active::Active, bucket::TriangleId, geometry::Geometry, table::Span,
 use crate::work::{Tally, Work};
 
 /// Triangles put in their places at once.
-const BATCH: usize = 16;
+pub(super) const BATCH: usize = 16;
 
 /// Up to `N` active triangles in fixed slots, and what they cover on the line, in the order of the first pixel.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::{active::Active, bucket::TriangleId, picture::Picture};
+use super::{active::Active, bucket::TriangleId, list::BATCH, picture::Picture};
 use crate::{model::light::LightSource, price::Price, work::Work};
 
 impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
@@ -163,9 +163,10 @@ impl Known {
         let (geometry, width) = (&picture.geometry, picture.geometry.width() as u16);
         (work.walked, work.lines, work.gradients) = (1, 1, picture.background.is_gradient().into());
         work.deepened = overlapping;
-        // Each of those that stay may pass all others; those that start come eight at a time, in order.
-        let (stay, enter) = (work.stepped, work.entered);
-        work.moved = stay.saturating_mul(stay.saturating_sub(1)) / 2 + enter.div_ceil(8).saturating_mul(work.active) + 4 * enter;
+        // Each of those that stay may pass all others; those that start come some at a time, and each may pass the rest of these.
+        let (stay, enter, batch) = (work.stepped, work.entered, BATCH as u32);
+        let batches = enter.div_ceil(batch).saturating_mul(work.active);
+        work.moved = stay.saturating_mul(stay.saturating_sub(1)) / 2 + batches + enter * (batch - 1) / 2;
         (work.stepped, work.ended) = (work.stepped + ended, ended);
 
         let ([covered, shared], gaps) = (here.counts(), here.gaps(width));
