@@ -29,6 +29,7 @@ mod table;
 mod teapot;
 mod test;
 mod toolchain;
+mod ways;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -57,6 +58,7 @@ enum Command {
     Oled(oled::Arguments),
     Readme(readme::Arguments),
     Test(test::Arguments),
+    Ways(ways::Arguments),
 }
 
 fn run(command: Command) -> Result<()> {
@@ -74,6 +76,7 @@ fn run(command: Command) -> Result<()> {
         Command::Oled(arguments) => oled::run(&arguments),
         Command::Readme(arguments) => readme::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
+        Command::Ways(_) => ways::run(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The tables in README and docs.
 
 use crate::project::{self, progress};
-use crate::{accuracy, adaptive, bus, compare, costs, cycles, gallery, goals, growth};
+use crate::{accuracy, adaptive, bus, compare, costs, cycles, gallery, goals, growth, ways};
 use anyhow::{Context, Result};
 
 /// Write the tables of README and docs/performance.md anew, from what is measured now.
@@ -23,6 +23,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.all {
         gallery::run()?;
         // One by one, as each takes long.
+        write("docs/beam.md", &[("ways", ways::text()?)])?;
         write("docs/performance.md", &[("growth", growth::text()?)])?;
         write("docs/shading.md", &[("accuracy", accuracy::every_case()?)])?;
         write("docs/shading.md", &[("adaptive", adaptive::text()?)])?;

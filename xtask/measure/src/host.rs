@@ -13,11 +13,16 @@ fn main() {
             sum.row(row);
             all.row(row);
         });
-        #[cfg(feature = "ways")]
+        #[cfg(feature = "ahead")]
+        let fits = scene.draw_ahead(|row| {
+            sum.row(row);
+            all.row(row);
+        });
+        #[cfg(any(feature = "ahead", feature = "ways"))]
         assert!(fits, "frame {step} has no room");
-        #[cfg(not(feature = "ways"))]
+        #[cfg(not(any(feature = "ahead", feature = "ways")))]
         let (mut lines, row) = scene.lines();
-        #[cfg(not(feature = "ways"))]
+        #[cfg(not(any(feature = "ahead", feature = "ways")))]
         for y in 0..Scene::LINES {
             let line = Scene::shade(&mut lines, y, row);
             assert_eq!(line.dropped, 0, "frame {step}, line {y}");

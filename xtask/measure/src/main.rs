@@ -44,9 +44,16 @@ fn main() -> ! {
                 all.row(row);
             });
         }
-        #[cfg(not(feature = "ways"))]
+        #[cfg(feature = "ahead")]
+        {
+            fits &= scene.draw_ahead(|row| {
+                sum.row(row);
+                all.row(row);
+            });
+        }
+        #[cfg(not(any(feature = "ahead", feature = "ways")))]
         let (mut lines, row) = scene.lines();
-        #[cfg(not(feature = "ways"))]
+        #[cfg(not(any(feature = "ahead", feature = "ways")))]
         for y in 0..Scene::LINES {
             if !cfg!(feature = "parts") {
                 mark::line();

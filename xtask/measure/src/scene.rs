@@ -41,6 +41,8 @@ type Method = beamshade::LinearAngle;
 type Method = beamshade::LinearAngle<beamshade::shade::linear_angle::Byte>;
 #[cfg(feature = "flat")]
 type Method = beamshade::Flat;
+#[cfg(feature = "degrading")]
+type Method = beamshade::Degrading;
 #[cfg(any(feature = "gouraud", feature = "regular-split", feature = "highlight-split"))]
 type Method = beamshade::Gouraud;
 
@@ -54,6 +56,9 @@ type Seeing = beamshade::DepthLine<WIDTH>;
 #[cfg(not(feature = "depth-line"))]
 type Seeing = beamshade::Spanning;
 
+#[cfg(feature = "ahead")]
+#[path = "ahead.rs"]
+mod ahead;
 #[cfg(feature = "ways")]
 #[path = "ways.rs"]
 mod ways;
@@ -266,6 +271,8 @@ pub struct Scene {
     frame: TeapotFrame,
     scanner: TeapotScanner,
     row: Row,
+    #[cfg(feature = "ahead")]
+    tables: ahead::Tables,
     #[cfg(feature = "ways")]
     tables: ways::Tables,
 }
@@ -278,8 +285,13 @@ impl Scene {
     /// Bytes of the mesh, which lies in flash and does not count as code.
     pub const MESH_BYTES: usize = VERTICES * 12 + TRIANGLES * 12 + 4;
     /// What lies in RAM, by type, with its size in bytes.
-    pub const RAM: &'static [(&'static str, usize)] =
-        &[("Frame", size_of::<TeapotFrame>()), ("Scanner", size_of::<TeapotScanner>()), ("rows", 2 * size_of::<Row>())];
+    pub const RAM: &'static [(&'static str, usize)] = &[
+        ("Frame", size_of::<TeapotFrame>()),
+        ("Scanner", size_of::<TeapotScanner>()),
+        ("rows", 2 * size_of::<Row>()),
+        #[cfg(feature = "ahead")]
+        ("tables", size_of::<ahead::Tables>()),
+    ];
 
     /// A scene of which no frame was prepared yet.
     pub const fn new() -> Self {
@@ -287,6 +299,8 @@ impl Scene {
             frame: Frame::new(),
             scanner: Scanner::new(),
             row: [Rgb565::BLACK; WIDTH],
+            #[cfg(feature = "ahead")]
+            tables: ahead::Tables::new(),
             #[cfg(feature = "ways")]
             tables: ways::Tables::new(),
         }
@@ -368,6 +382,8 @@ impl Scene {
     pub fn shade(lines: &mut TeapotLines<'_>, y: u16, row: &mut Row) -> Line {
         if cfg!(feature = "transparent") {
             lines.transparent_line(y, row)
+        } else if cfg!(feature = "smooth") {
+            lines.smooth_line(y, row)
         } else {
             lines.line(y, row)
         }
