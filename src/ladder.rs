@@ -98,15 +98,20 @@ impl<const LINES: usize> Plan<LINES> {
         self.bounds.clear();
         self.steps.clear();
         (self.middle, self.late) = (middle(&picture), 0);
+        let rungs = Rungs::new(prices);
         let last = 2 * prices.len().saturating_sub(1).min(3) as u8;
         let mut before = 0;
         for y in 0..picture.geometry.height().min(LINES as u16) {
             let Some((known, crossing)) = self.known(&mut lines, &picture, y, before) else { break };
             before = crossing;
-            let (mut step, mut bound) = (0, known.bound(prices, 0));
+            let [own, rest] = known.all.by_method();
+            let (near, far, rest) = (known.near, own - known.near, rungs.rest.sixteenths(rest));
+            // So many steps down the ladder near triangles are on this rung or below, far ones on that or below.
+            let bound_at = |step: u8| cycles([rungs.of(step / 2, near), rungs.of(step.div_ceil(2), far), rest]);
+            let (mut step, mut bound) = (0, bound_at(0));
             while bound > period && step < last {
                 step += 1;
-                bound = known.bound(prices, step);
+                bound = bound_at(step);
             }
             self.late = self.late.saturating_add((bound > period).into());
             // There is room for both.
@@ -221,13 +226,23 @@ struct Halves {
     near: Work,
 }
 
-impl Halves {
-    /// What that takes at most so many steps down the ladder, near triangles being on this rung or below, far ones on that or below.
-    fn bound(&self, prices: &[Price], step: u8) -> u32 {
-        let [own, rest] = self.all.by_method();
-        let [near, far] = [step / 2, step.div_ceil(2)].map(|rung| Price::dearest(prices.get(rung.into()..).unwrap_or_default()));
-        let [near, far] = [near.of_any_kind().sixteenths(self.near), far.of_any_kind().sixteenths(own - self.near)];
-        cycles([near, far, Price::dearest(prices).sixteenths(rest)])
+/// The prices of a ladder.
+struct Rungs {
+    /// For each rung, of triangles on it or below: of each piece of work the dearest.
+    own: [Price; 4],
+    /// Of what is the same on all.
+    rest: Price,
+}
+
+impl Rungs {
+    fn new(prices: &[Price]) -> Self {
+        let below = |rung: usize| Price::dearest(prices.get(rung..).unwrap_or_default()).of_any_kind();
+        Self { own: [0, 1, 2, 3].map(below), rest: Price::dearest(prices) }
+    }
+
+    /// What that much work of triangles on a rung or below takes at most, in sixteenths.
+    fn of(&self, rung: u8, work: Work) -> u32 {
+        self.own.get(usize::from(rung)).map_or(0, |price| price.sixteenths(work))
     }
 }
 

@@ -216,8 +216,8 @@ impl Cover {
 
     pub(crate) fn add(&mut self, columns: Range<u16>) {
         self.pixels += columns.len() as u32;
-        for (((once, twice), thrice), bits) in self.once.iter_mut().zip(&mut self.twice).zip(&mut self.thrice).zip(words(columns))
-        {
+        let all = self.once.iter_mut().zip(&mut self.twice).zip(&mut self.thrice);
+        for (((once, twice), thrice), bits) in all.skip(first(&columns)).zip(words(columns)) {
             *thrice |= *twice & bits;
             *twice |= *once & bits;
             *once |= bits;
@@ -226,7 +226,7 @@ impl Cover {
 
     /// Whether none of these pixels is covered by two.
     pub(crate) fn is_single(&self, columns: Range<u16>) -> bool {
-        self.twice.iter().zip(words(columns)).all(|(twice, bits)| twice & bits == 0)
+        self.twice.iter().skip(first(&columns)).zip(words(columns)).all(|(twice, bits)| twice & bits == 0)
     }
 
     /// Whether a pixel is covered by three.
@@ -251,11 +251,18 @@ impl Cover {
     }
 }
 
-/// The bits of these pixels, word by word.
-fn words(Range { start, end }: Range<u16>) -> impl Iterator<Item = u32> {
+/// The first word that has one of these pixels.
+fn first(columns: &Range<u16>) -> usize {
+    usize::from(columns.start / 32)
+}
+
+/// The bits of these pixels, word by word, from the first that has one to the last.
+fn words(columns: Range<u16>) -> impl Iterator<Item = u32> {
+    let words = first(&columns)..usize::from(columns.end.div_ceil(32));
+    let Range { start, end } = columns;
     let below = |x: u16, word: usize| {
         let bits = (usize::from(x)).saturating_sub(32 * word).min(32) as u32;
         u32::MAX.checked_shr(32 - bits).unwrap_or(0)
     };
-    (0..WORDS).map(move |word| below(end, word) & !below(start, word))
+    words.map(move |word| below(end, word) & !below(start, word))
 }
