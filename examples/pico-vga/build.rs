@@ -9,8 +9,10 @@ use std::{env, fs, path::PathBuf};
 fn main() {
     // Orange: red and blue change places on their way to the pins, see `scene.rs`.
     let orange = Options { base: Some([0.20, 0.45, 0.85]), ..Options::default() };
-    if let Err(error) = beamshade_mesh::build("../models/teapot-880.obj", "TEAPOT", &orange) {
-        panic!("{error}");
+    for model in ["../models/teapot-880.obj", "../models/teapot-216.obj"] {
+        if let Err(error) = beamshade_mesh::build(model, "TEAPOT", &orange) {
+            panic!("{error}");
+        }
     }
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     fs::copy("../../memory.x", out.join("memory.x")).expect("the RP2040's memory map is at the top of the repository");

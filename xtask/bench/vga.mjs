@@ -1,6 +1,6 @@
-// A Raspberry Pi Pico with a VGA monitor: node vga.mjs FIRMWARE FOLDER PICTURES LATE
+// A Raspberry Pi Pico with a VGA monitor: node vga.mjs FIRMWARE FOLDER PICTURES REFRESHES LATE
 //
-// Runs the firmware until the monitor has shown that many different pictures, and leaves in the folder each of them
+// Runs the firmware until the monitor has shown that many different pictures and refreshes, and leaves in the folder each picture
 // (picture-0.ppm and so on) and bench.json: the timing of the signal, and of each row. LATE is the address of the firmware's
 // count of late rows; it is read in each vertical blank, for comparison with what was seen to repeat.
 
@@ -14,7 +14,7 @@ const BUSY = 22;
 /** For how many refreshes a picture may stay. */
 const PATIENCE = 60;
 
-const [firmware, folder, pictures, late] = process.argv.slice(2);
+const [firmware, folder, pictures, refreshes, late] = process.argv.slice(2);
 const mcu = loadElf(firmware);
 const { chip, core, clock } = mcu;
 
@@ -80,14 +80,15 @@ const driven = () => {
   return given & pio.pinDirections;
 };
 
-// Which row a line shows: the place in memory from which the DMA was told to feed the pixels.
-let loaded = { place: 0, slack: null };
+// Which row a line shows: the place in memory from which the DMA was told to feed the pixels, and that of the line before it.
+let loaded = { place: 0, before: 0, slack: null };
 for (const channel of chip.dma.channels) {
   const start = channel.start.bind(channel);
   channel.start = () => {
     start();
     // The request of a FIFO that leads out of a state machine.
-    if (channel.treq < 4) loaded = { place: channel.readAddr, slack: shaded.to === Infinity ? null : now() - shaded.to };
+    if (channel.treq >= 4) return;
+    loaded = { place: channel.readAddr, before: loaded.place, slack: shaded.to === Infinity ? null : now() - shaded.to };
   };
 }
 
@@ -134,12 +135,13 @@ const monitor = new Monitor({
       before = picture;
       result.refreshes.push({ ...timing, picture: seen - 1, repeats, odd, slack, shading: times, late: read() });
     }
-    shown = { place: shown.place, repeats: [], odd: 0, slack: [] };
+    // By now the DMA was told to feed the first line of the next picture: the last one of this picture is the one before it.
+    shown = { place: loaded.before, repeats: [], odd: 0, slack: [] };
     if (!picture) [rows.length, result.late] = [0, read()];
   },
 });
 
-run(mcu, () => seen > Number(pictures));
+run(mcu, () => seen > Number(pictures) && result.refreshes.length >= Number(refreshes));
 Object.assign(result, { hertz: chip.clkSys, stack: mcu.stack.top - mcu.stack.least });
 fs.writeFileSync(path.join(folder, 'bench.json'), JSON.stringify(result));
 // Timers of the emulator's own would keep the process alive.

@@ -152,6 +152,13 @@ fn weights(place: f64) -> ([f64; 4], [f64; 4]) {
 mod tests {
     use super::*;
 
+    /// The coarsest of the models was made here.
+    #[test]
+    fn at_two_divisions_it_is_the_coarse_model() -> Result<()> {
+        assert_eq!(obj(2)?, std::fs::read_to_string(project::root().join("examples/models/teapot-216.obj"))?);
+        Ok(())
+    }
+
     fn lines<'a>(text: &'a str, kind: &str) -> Vec<Vec<&'a str>> {
         let words = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
         words.filter(|words| words.first() == Some(&kind)).collect()

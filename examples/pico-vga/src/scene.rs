@@ -1,25 +1,41 @@
 //! What is shown.
 
-use beamshade::{Background, Camera, Color, Flat, Frame, Light, Pose, Rotation, Turn};
+use beamshade::{Background, Camera, Color, Frame, Light, Pose, Rotation, Turn};
 use embedded_graphics::geometry::Size;
 
 use crate::vga::{HEIGHT, WIDTH};
 
-// `static TEAPOT`, made from the OBJ file by build.rs.
+// `static TEAPOT`, made from an OBJ file by build.rs.
+#[cfg(not(feature = "ring"))]
 include!(concat!(env!("OUT_DIR"), "/teapot-880.rs"));
+#[cfg(feature = "ring")]
+include!(concat!(env!("OUT_DIR"), "/teapot-216.rs"));
 
 /// Teapots.
 pub const TEAPOTS: usize = if cfg!(feature = "heavy") { 3 } else { 1 };
-/// For how many triangles there is room on one line.
-pub const ACTIVE: usize = if cfg!(feature = "heavy") { 96 } else { 72 };
-/// From the eye: as near as the rows of a teapot can be shaded in time.
-const DISTANCE: f32 = if cfg!(feature = "heavy") { 6.2 } else { 5.5 };
+/// For how many triangles or pairs there is room on one line.
+pub const ACTIVE: usize = if cfg!(feature = "heavy") { 64 } else { 48 };
+/// From the eye: as near as the rows of a teapot can be shaded in time; the ring's is nearer, to be late.
+const DISTANCE: f32 = if cfg!(feature = "heavy") {
+    6.2
+} else if cfg!(feature = "ring") {
+    2.45
+} else {
+    5.5
+};
 
 /// How it is shaded: a row has 8000 cycles, which is too short for more at this size.
-pub type Method = Flat;
+#[cfg(not(feature = "ring"))]
+pub type Method = beamshade::Flat;
+/// How it is shaded: by the default, late or not.
+#[cfg(all(feature = "ring", not(feature = "degrade")))]
+pub type Method = beamshade::DuffBarycentric;
+/// How it is shaded: by the default, or by what the plan says.
+#[cfg(feature = "degrade")]
+pub type Method = beamshade::Degrading;
 
-/// One frame's geometry: vertices, triangles that face the eye, lines.
-pub type Geometry = Frame<'static, { TEAPOTS * 481 }, { TEAPOTS * 512 }, { HEIGHT as usize }>;
+/// One frame's geometry: vertices, triangles or pairs that face the eye, lines.
+pub type Geometry = Frame<'static, { TEAPOTS * 481 }, { TEAPOTS * 320 }, { HEIGHT as usize }>;
 
 /// Fills the background; all frames keep it.
 pub fn prepare(frame: &mut Geometry) {

@@ -60,8 +60,8 @@ pub struct Vga {
     /// For each row that begins, how many come after it.
     begun: Rx<PIO0SM1>,
     rows: &'static mut [Row; 2],
-    /// The numbers of the rows in there.
-    numbers: [u16; 2],
+    /// The numbers of the rows in there, until they are shown.
+    numbers: [Option<u16>; 2],
 }
 
 impl Vga {
@@ -154,7 +154,7 @@ impl Vga {
         feed(&dma, resets, constant.fifo_address() as u32, &rows[0]);
         begun.enable_rx_not_empty_interrupt(PioIRQ::Irq0);
         hsync.with(vsync).with(pixels).sync().start();
-        Vga { dma, begun, rows, numbers: [0; 2] }
+        Vga { dma, begun, rows, numbers: [Some(0), None] }
     }
 
     /// To be called when a row has begun, by interrupt PIO0_IRQ_0: has the next one shaded into the row that is not shown. `shade`
@@ -167,7 +167,7 @@ impl Vga {
         let mut number = None;
         while let Some(after) = self.begun.read() {
             let begun = HEIGHT - 1 - after as u16;
-            if self.numbers[shown] != begun {
+            if self.numbers[shown].take() != Some(begun) {
                 LATE.store(LATE.load(Relaxed) + 1, Relaxed);
             }
             number = Some(if after == 0 { 0 } else { begun + 1 });
@@ -180,7 +180,7 @@ impl Vga {
 
         let back = 1 - shown;
         if shade(number, &mut self.rows[back].pixels) && self.begun.is_empty() {
-            self.numbers[back] = number;
+            self.numbers[back] = Some(number);
             even.store(place(&self.rows[back]), Release);
         }
     }

@@ -5,7 +5,10 @@ use crate::install::{self, Need};
 use crate::process;
 use crate::project::{self, progress};
 use anyhow::{ensure, Context, Result};
-use beamshade::{Background, Camera, Color, Flat, Frame, Light, Pose, Rotation, Scanner, Turn};
+use beamshade::{
+    Background, Camera, Color, Degrading, DuffBarycentric, Flat, Frame, Light, Picture, Plan, Pose, Price, Rotation, Scanner,
+    Shade, Turn,
+};
 use beamshade_mesh::{Model, Options};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::{Rgb565, RgbColor};
@@ -22,8 +25,16 @@ pub(crate) enum Way {
     Teapot,
     /// Three of them.
     Heavy,
-    /// A teapot, by lines that are prepared a little ahead of the beam.
+    /// A coarse and large one, by lines that are prepared a little ahead of the beam, all of them by the default method.
     Ring,
+    /// The same, with cheaper methods where lines may take too long.
+    Degrade,
+}
+
+impl Way {
+    fn is_ring(self) -> bool {
+        matches!(self, Way::Ring | Way::Degrade)
+    }
 }
 
 const WIDTH: u32 = 320;
@@ -34,41 +45,47 @@ const LINE: u64 = 800 * 5;
 const HSYNC: u64 = 96 * 5;
 const LINES: u64 = 525;
 
+/// For how many refreshes the firmware shows a frame line by line.
+const REFRESHES: u32 = 12;
+
 /// `cargo xtask board pico-vga`: runs each of the firmware's ways for that many frames, and checks signal and pictures.
 pub(crate) fn run(frames: u32) -> Result<()> {
     install::ensure(&[Need::FirmwareCompiler, Need::Node])?;
     install::bench()?;
-    for way in [Way::Teapot, Way::Heavy, Way::Ring] {
+    for way in [Way::Teapot, Way::Heavy] {
         check(way, frames)?;
     }
+    let [as_is, degraded] = [check(Way::Ring, frames)?, check(Way::Degrade, frames)?];
+    ensure!(degraded < as_is, "degrading does not help: {degraded} late rows, and {as_is} without");
     Ok(())
 }
 
-/// Runs the firmware, and checks what it showed.
+/// Runs the firmware, and checks what it showed. Tells how many rows came late.
 ///
 /// # Errors
-/// If it did not show what it should have.
-pub(crate) fn check(way: Way, frames: u32) -> Result<()> {
+/// If it did not show what it should have, or counts late rows otherwise than the monitor.
+fn check(way: Way, frames: u32) -> Result<u64> {
     let (name, features): (_, &[&str]) = match way {
         Way::Teapot => ("teapot", &[]),
         Way::Heavy => ("three teapots", &["heavy"]),
-        Way::Ring => ("teapot, line by line", &["ring"]),
+        Way::Ring => ("coarse teapot, line by line", &["ring"]),
+        Way::Degrade => ("coarse teapot, line by line, degraded where late", &["degrade"]),
     };
     let elf = firmware::build(PICO_VGA, PICO_TARGET, features)?;
     let (late, ram) = facts(elf.path())?;
     let folder = project::target()?.join("board").join(PICO_VGA.program).join(features.first().unwrap_or(&"teapot"));
     std::fs::create_dir_all(&folder)?;
     // The first picture may be black, and what is in the ring may differ with each refresh.
-    let pictures = if way == Way::Ring { frames * 4 } else { frames + 1 };
-    progress(format!("running {} [{}] in the emulator for {pictures} pictures", PICO_VGA.path, features.join(",")));
+    let [pictures, least] = if way.is_ring() { [0, frames * REFRESHES] } else { [frames + 1, 0] };
+    progress(format!("running {} [{}] in the emulator for {frames} frames", PICO_VGA.path, features.join(",")));
     let mut command = Command::new("node");
     command.arg(project::root().join("xtask/bench/vga.mjs")).arg(elf.path()).arg(&folder);
-    process::run(command.args([pictures.to_string(), late.to_string()]))?;
+    process::run(command.args([pictures.to_string(), least.to_string(), late.to_string()]))?;
 
     let result: Value = serde_json::from_slice(&std::fs::read(folder.join("bench.json"))?)?;
     let refreshes = result["refreshes"].as_array().context("no refreshes")?;
     refreshes.iter().try_for_each(signal)?;
-    let repeats: Vec<_> = refreshes.iter().map(|refresh| refresh["repeats"].as_array().map_or(0, Vec::len) as u64).collect();
+    let mut repeats: Vec<_> = refreshes.iter().map(|refresh| refresh["repeats"].as_array().map_or(0, Vec::len) as u64).collect();
     let mut before = number(&result["late"])?;
     for (refresh, repeated) in refreshes.iter().zip(&repeats) {
         let late = number(&refresh["late"])?;
@@ -76,18 +93,18 @@ pub(crate) fn check(way: Way, frames: u32) -> Result<()> {
         before = late;
     }
     let late: u64 = repeats.iter().sum();
-    ensure!(way == Way::Ring || late == 0, "{late} rows came late");
-    let shown = match way {
-        Way::Ring => lines(&folder, refreshes, frames)?,
-        _ => whole(&folder, refreshes, pictures, way)?,
-    };
+    ensure!(way.is_ring() || late == 0, "{late} rows came late");
+    let shown = if way.is_ring() { lines(&folder, refreshes, frames, way)? } else { whole(&folder, refreshes, pictures, way)? };
 
     let shading: Vec<_> = refreshes.iter().flat_map(|refresh| numbers(&refresh["shading"])).collect();
     let slack = refreshes.iter().flat_map(|refresh| numbers(&refresh["slack"])).min().unwrap_or_default();
     println!("{name}");
     println!("  signal   {} refreshes of {LINES} lines of {LINE} cycles, exact to the cycle", refreshes.len());
     println!("  pictures {shown}");
-    println!("  late     {late} of {} rows; the firmware counts as many", refreshes.len() * HEIGHT as usize);
+    repeats.sort_unstable();
+    let median = repeats.get(repeats.len() / 2).unwrap_or(&0);
+    let rows = refreshes.len() * HEIGHT as usize;
+    println!("  late     {late} of {rows} rows, {median} in the median refresh; the firmware counts as many");
     let (worst, sum) = (shading.iter().max().unwrap_or(&0), shading.iter().sum::<i64>());
     println!(
         "  shading  worst row {worst} cycles of 8000, mean {}; least slack {slack} cycles",
@@ -98,7 +115,7 @@ pub(crate) fn check(way: Way, frames: u32) -> Result<()> {
     let picture = folder.join("picture.png");
     image::open(folder.join(format!("picture-{last}.ppm")))?.save_with_format(&picture, ImageFormat::Png)?;
     println!("  {}: the last picture", project::shown(&picture));
-    Ok(())
+    Ok(late)
 }
 
 /// Checks the signal of a refresh.
@@ -133,8 +150,8 @@ fn whole(folder: &Path, refreshes: &[Value], pictures: u32, way: Way) -> Result<
 }
 
 /// Checks that each row of each refresh is that row of the frame, or of the next one, or else repeats the row above.
-fn lines(folder: &Path, refreshes: &[Value], frames: u32) -> Result<String> {
-    let expected: Vec<_> = (0..=2 * frames + 2).map(|step| expected(step, Way::Ring)).collect::<Result<_>>()?;
+fn lines(folder: &Path, refreshes: &[Value], frames: u32, way: Way) -> Result<String> {
+    let expected: Vec<_> = (0..=frames).map(|step| expected(step, way)).collect::<Result<_>>()?;
     let row = |picture: &RgbImage, y: u32| -> Vec<_> { (0..WIDTH).map(|x| *picture.get_pixel(x, y)).collect() };
     let (mut step, mut above, mut good) = (0, None, 0);
     for refresh in refreshes {
@@ -172,13 +189,15 @@ fn differences(a: &RgbImage, b: &RgbImage) -> usize {
 fn expected(step: u32, way: Way) -> Result<RgbImage> {
     // Red and blue change places on their way.
     let orange = Options { base: Some([0.20, 0.45, 0.85]), ..Options::default() };
-    let model = Model::load(project::root().join("examples/models/teapot-880.obj"), &orange)?.quantize()?;
+    let file = if way.is_ring() { "teapot-216.obj" } else { "teapot-880.obj" };
+    let model = Model::load(project::root().join("examples/models").join(file), &orange)?.quantize()?;
     let mesh = model.mesh();
-    let camera = Camera::new(Size::new(WIDTH, HEIGHT)).field_of_view(Turn::degrees(40)).at_distance(if way == Way::Heavy {
-        6.2
-    } else {
-        5.5
-    });
+    let distance = match way {
+        Way::Teapot => 5.5,
+        Way::Heavy => 6.2,
+        Way::Ring | Way::Degrade => 2.45,
+    };
+    let camera = Camera::new(Size::new(WIDTH, HEIGHT)).field_of_view(Turn::degrees(40)).at_distance(distance);
     let mut frame = Box::new(Frame::<1443, 1536, { HEIGHT as usize }>::new());
     frame.background(Background::Gradient { top: Color::rgb(0.10, 0.03, 0.02), bottom: Color::rgb(0.40, 0.30, 0.25) });
     frame.begin(&camera, &[Light::directional([-0.5, 0.7, 0.6])])?;
@@ -188,18 +207,32 @@ fn expected(step: u32, way: Way) -> Result<RgbImage> {
         let place = if teapots == 1 { [0.0; 3] } else { [(number - 1) as f32 * 0.9, (number - 1) as f32 * 1.4, 0.0] };
         frame.add(&mesh, &Pose::turned(turned).at(place))?;
     }
-    let mut scanner = Box::new(Scanner::<128, Flat>::new());
-    let mut lines = scanner.start(frame.picture());
-    let mut picture = RgbImage::new(WIDTH, HEIGHT);
-    for (y, pixels) in (0..).zip(picture.rows_mut()) {
+    match way {
+        Way::Teapot | Way::Heavy => drawn::<Flat>(frame.picture()),
+        Way::Ring => drawn::<DuffBarycentric>(frame.picture()),
+        Way::Degrade => {
+            let mut plan = Plan::<{ HEIGHT as usize }>::new();
+            let mut scanner = Box::new(Scanner::<128, Degrading>::new());
+            plan.make(scanner.start(frame.picture()), &Price::M0_PLUS_DEGRADING, 2 * LINE as u32);
+            drawn::<Degrading>(plan.degrade(frame.picture()))
+        }
+    }
+}
+
+/// A picture, drawn line by line.
+fn drawn<S: Shade<1>>(picture: Picture<'_, '_>) -> Result<RgbImage> {
+    let mut scanner = Box::new(Scanner::<128, S>::new());
+    let mut lines = scanner.start(picture);
+    let mut image = RgbImage::new(WIDTH, HEIGHT);
+    for (y, pixels) in (0..).zip(image.rows_mut()) {
         let mut row = [Rgb565::BLACK; WIDTH as usize];
-        ensure!(lines.line(y, &mut row).dropped == 0, "line {y} of frame {step} has no room");
+        ensure!(lines.line(y, &mut row).dropped == 0, "line {y} has no room");
         for (pixel, color) in pixels.zip(row) {
             let level = |level: u8| ((u32::from(level) * 255 + 15) / 31) as u8;
             pixel.0 = [level(color.b()), level(color.g() >> 1), level(color.r())];
         }
     }
-    Ok(picture)
+    Ok(image)
 }
 
 /// Where the firmware counts late rows, and the RAM that it takes.
