@@ -9,7 +9,7 @@ use crate::{
         light::LightSource,
         material::{Color, Material},
     },
-    scan::{active::Active, picture::Picture, table::Span, visibility::Visibility},
+    scan::{picture::Picture, table::Span, visibility::Visibility},
     scanner::{shade, Dressed, Line, Lines, Take},
     shade::Shade,
     sink::ink::Ink,
@@ -28,7 +28,7 @@ impl<'m, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: Light
 {
     fn dress(&mut self, _: &'m Material) {}
 
-    fn span(&mut self, span: Span, _: &S::Facet, _: &Active) {
+    fn span(&mut self, span: Span, _: &S::Facet, _: u16) {
         let Range { start, end } = span.range();
         if end > self.from && self.spans.push(span).is_err() {
             self.until = self.until.min(start);
@@ -59,7 +59,7 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
 /// What is seen on a line.
 pub(crate) struct Seen<'a, 'f, 'm, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
     picture: &'a Picture<'f, 'm, LIGHTS, L>,
-    facets: &'a [S::Facet; ACTIVE],
+    facets: &'a [[S::Facet; 2]; ACTIVE],
     y: i32,
     pub(crate) background: Option<Color>,
 }
@@ -77,9 +77,22 @@ impl<'m, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: Light
 
     /// Shades pixels of a span, in it or beside it.
     pub(crate) fn shade<P: Ink>(&self, span: &Span, x: usize, pixels: &mut [P]) {
-        if let (Some(material), Some(facet)) = (self.material(span), self.facets.get(usize::from(span.slot()))) {
-            shade::<P, S, LIGHTS, L>(&Dressed::new(self.y, material, self.picture.intensities), facet, x as i32, pixels);
+        if let Some(dressed) = self.dressed(span) {
+            self.shade_as(&dressed, span, x, pixels);
         }
+    }
+
+    /// The same with its material made ready.
+    pub(crate) fn shade_as<P: Ink>(&self, dressed: &Dressed<'_, 'm, P, LIGHTS>, span: &Span, x: usize, pixels: &mut [P]) {
+        let facets = self.facets.get(usize::from(span.slot()));
+        if let Some(facet) = facets.and_then(|facets| facets.get(span.half())) {
+            shade::<P, S, LIGHTS, L>(dressed, facet, x as i32, pixels);
+        }
+    }
+
+    /// The material that a span shows, made ready.
+    pub(crate) fn dressed<P: Ink>(&self, span: &Span) -> Option<Dressed<'_, 'm, P, LIGHTS>> {
+        Some(Dressed::new(self.y, self.material(span)?, self.picture.intensities))
     }
 
     /// The material that a span shows.

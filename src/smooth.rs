@@ -5,7 +5,7 @@ use core::ops::Range;
 use heapless::Vec;
 
 use crate::{
-    model::{light::LightSource, material::Color},
+    model::{camera::Camera, light::LightSource, material::Color},
     scan::{edge::Edge, list::ActiveList, silhouette::Silhouette, table::Span, visibility::Visibility},
     scanner::{Line, Lines},
     seen::Seen,
@@ -13,110 +13,111 @@ use crate::{
     sink::{ink::Ink, row::Row},
 };
 
-/// Edges that are smoothed on one line; those right of them stay as they are.
-const EDGES: usize = 24;
-
-/// Pixels blended at once.
-const PIECE: usize = 8;
+/// Of 256.
+const HALF: i32 = 128;
 
 impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>
     Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>
 {
-    /// As [`line`](Lines::line), with the edges that end a surface blended with what is seen behind them, by the area of the pixel
-    /// that they leave (*Faster Phong Shading*, §3.6), and so the lines where surfaces cut each other. An edge between two triangles of
-    /// one surface stays as it is.
+    /// Line y of the panel, of a picture for a [smooth camera](Camera::smooth), with anti-aliased silhouettes: the mean of its two
+    /// sublines, each shaded as [`line`](Lines::line) does.
     ///
-    /// A pixel is blended before it becomes ink, and stored once. Behind an edge lies what is seen next to it, shaded as far as
-    /// the edge reaches. What falls between the centres of two lines stays missed, and so does an edge over
-    /// [`Background::Keep`](crate::Background::Keep), whose colours are not known. Shallow edges reach beyond what is
-    /// [`covered`](Lines::covered). Takes 8 bytes of stack for each of `ACTIVE`
-    /// spans, and about 1 kB; a line of more spans than that stays as it is, and so do pixels that [do not blend](Ink::BLENDS).
-    /// [Transparent](crate::Material::opacity) triangles are opaque in it.
+    /// On each, edges that end a surface are blended with what is seen beside them, by the area of the pixel that they leave (*Faster
+    /// Phong Shading*, §3.6), and so are the lines where surfaces cut each other. An edge between two triangles of one surface stays as
+    /// it is. Against 16×16 samples a pixel, the pixels that silhouettes of T880 cut are off by 2.0 levels of 255 in the mean, those
+    /// of plain lines by 19.9, of four samples a pixel by 6.9. What falls between the centres of two sublines stays missed.
+    ///
+    /// A pixel is blended before it becomes ink, and stored once; of both sublines the scratch `colors` holds two colours a pixel, and
+    /// where it has no room for, the row is left alone. Over [`Background::Keep`](crate::Background::Keep), whose colours are not
+    /// known, the line is its upper subline as it is, and so it is in pixels that [do not blend](Ink::BLENDS).
+    /// [Transparent](crate::Material::opacity) triangles are opaque in it. Shallow edges reach beyond what is
+    /// [`covered`](Lines::covered).
+    ///
+    /// Takes four times as long as a plain line of the panel, 8 bytes of stack for each of `ACTIVE` spans, and about half a kB more. The
+    /// counts are those of both sublines.
     #[inline(never)]
-    pub fn smooth_line<P: Ink>(&mut self, y: u16, row: &mut [P]) -> Line {
+    pub fn smooth_line<P: Ink>(&mut self, y: u16, colors: &mut [Color], row: &mut [P]) -> Line {
+        let y = y.saturating_mul(Camera::SUBLINES);
+        let below = y.saturating_add(1);
+        let (true, Some(background)) = (P::BLENDS, self.background(y)) else { return self.line(y, row) };
+        let background = background.mixed(self.background(below).unwrap_or(background), HALF);
+        let (upper, lower) = colors.split_at_mut(colors.len() / 2);
+        let width = self.width().min(row.len()).min(upper.len());
+        let (Some(upper), Some(lower)) = (upper.get_mut(..width), lower.get_mut(..width)) else { return self.none() };
+        let Some((first, covered)) = self.subline(y, upper) else { return self.none() };
+        let Some((line, also)) = self.subline(below, lower) else { return self.none() };
+        let Range { start, end } = covered.start.min(also.start)..covered.end.max(also.end);
+        let mut row = Row::new(row.get_mut(..width).unwrap_or_default(), Some(background));
+        let pixels = row.span(start, end.max(start)).unwrap_or_default();
+        for (pixel, (upper, lower)) in pixels.iter_mut().zip(upper.iter().zip(lower).skip(start)) {
+            *pixel = P::plain(upper.mixed(*lower, HALF));
+        }
+        row.finish();
+        Line {
+            active: first.active + line.active,
+            spans: first.spans + line.spans,
+            facets: first.facets + line.facets,
+            bent: first.bent + line.bent,
+            ..line
+        }
+    }
+
+    /// Shades a subline; gives its counts, and the pixels outside of which it shows the background. None if there is no such line.
+    #[inline(never)]
+    fn subline(&mut self, y: u16, colors: &mut [Color]) -> Option<(Line, Range<usize>)> {
         if !self.seek(y) {
-            return self.none();
+            return None;
         }
-        let width = self.width().min(row.len());
-        let mut spans = Vec::new();
-        let (line, until) = self.gather(y, 0..width, &mut spans);
-        if until < width || !P::BLENDS {
-            return self.line(y, row);
+        let background = self.background(y)?;
+        colors.fill(background);
+        let width = colors.len();
+        let mut subline = Subline { colors, shown: width..0, background, before: None, cut: None };
+        let (mut x, mut line, mut spans) = (0, self.none(), Vec::new());
+        while x < width {
+            // Where there are more spans than room, what is left comes next.
+            let (found, until) = self.gather(y, x..width, &mut spans);
+            line = Line { facets: line.facets + found.facets, bent: line.bent + found.bent, ..found };
+            let edges = Edges { list: self.list(), y };
+            subline.show(&spans, &self.seen(y), &edges);
+            if until == width {
+                subline.end(None, &edges);
+            }
+            x = until;
         }
-        let background = self.background(y);
-        let cuts = Edges { list: self.list(), y }.cuts(&spans, width, background.is_some());
-        let row = Row::new(row.get_mut(..width).unwrap_or_default(), background);
-        let mut smoothing = Smoothing { seen: self.seen(y), spans: &spans, row };
-        let (mut cuts, mut x) = (cuts.as_slice(), 0);
-        for span in &spans {
-            let Range { start, end } = span.range();
-            smoothing.store(x..start, None, &mut cuts);
-            smoothing.store(start..end, Some(span), &mut cuts);
-            x = end;
-        }
-        smoothing.store(x..width, None, &mut cuts);
-        smoothing.row.finish();
-        line
+        subline.blend(width);
+        Some((line, subline.shown))
     }
 }
 
-/// An edge that ends a surface, and the pixels that it cuts.
-#[derive(Clone, Copy, Debug)]
-struct Cut {
-    edge: Silhouette,
-    from: u16,
-    to: u16,
-    /// The first pixel that shows what is right of it.
-    at: u16,
-    /// The spans on both sides; none for the background.
-    sides: [Option<u16>; 2],
-}
-
-/// The triangles that cross a line, and the edges at which spans end.
+/// The triangles that cross a subline.
 struct Edges<'a, const ACTIVE: usize> {
     list: &'a ActiveList<ACTIVE>,
     y: u16,
 }
 
 impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
-    /// The edges that end a surface, each between two spans, or a span and the background.
-    fn cuts(&self, spans: &[Span], width: usize, over_background: bool) -> Vec<Cut, EDGES> {
-        let mut cuts = Vec::<Cut, EDGES>::new();
-        let mut add = |edge: Option<Silhouette>, at: i32, sides: [Option<u16>; 2]| {
-            let Some(edge) = edge else { return };
-            let at = at as u16;
-            let [mut from, to] = edge.pixels().map(|pixel| pixel.clamp(0, width as i32) as u16);
-            if let Some(last) = cuts.last_mut() {
-                last.to = last.to.min(at);
-                from = from.max(last.to);
-            }
-            // What has no room stays as it is.
-            let _ = cuts.push(Cut { edge, from, to: to.max(from), at, sides });
-        };
-        let mut before: Option<(u16, Span)> = None;
-        for (place, span) in (0..).map(Some).zip(spans.iter().copied().map(Some).chain([None])) {
-            let met = before.zip(span).is_some_and(|((_, last), span)| last.end() == span.start());
-            if let Some(((last_place, last), span)) = before.zip(span).filter(|_| met) {
-                let [left, right] = [self.own(last, true), self.own(span, false)];
-                let is_inside = matches!((left, right), (Some(left), Some(right)) if left.is_near(right));
-                if !is_inside {
-                    let [left, right] = [self.end(last, true), self.end(span, false)];
-                    let is_behind = right.is_some() && self.nearness(last) < self.nearness(span);
-                    let edge = if is_behind { right } else { left.or(right) };
-                    let edge = edge.or_else(|| self.crossing(last, span));
-                    add(edge, span.start(), [Some(last_place), place]);
-                }
-            } else if over_background {
-                if let Some((last_place, last)) = before {
-                    add(self.end(last, true), last.end(), [Some(last_place), None]);
-                }
-                if let Some(span) = span {
-                    add(self.end(span, false), span.start(), [None, place]);
-                }
-            }
-            before = place.zip(span);
+    /// The edge at which one span, or the background, gives way to the next; none between triangles of one surface.
+    fn between(&self, left: Option<Span>, right: Option<Span>) -> Option<Silhouette> {
+        let [edge, other] = [left.and_then(|left| self.own(left, true)), right.and_then(|right| self.own(right, false))];
+        if edge.zip(other).is_some_and(|(edge, other)| edge.is_near(other)) {
+            return None;
         }
-        cuts
+        // Beyond a diagonal is the other triangle of the pair.
+        let is_outer = |span: Option<Span>, half: usize| span.is_some_and(|span| !self.is_divided(span) || span.half() != half);
+        let [end, start] = [edge.filter(|_| is_outer(left, 0)), other.filter(|_| is_outer(right, 1))];
+        let [edge, other] = [self.end(end, true, other), self.end(start, false, edge)];
+        let Some((left, right)) = left.zip(right) else { return edge.or(other) };
+        let is_behind = other.is_some() && self.nearness(left) < self.nearness(right);
+        let edge = if is_behind { other } else { edge.or(other) };
+        edge.or_else(|| self.crossing(left, right))
+    }
+
+    /// Whether both triangles of the pair that a span shows one of cover pixels.
+    fn is_divided(&self, span: Span) -> bool {
+        self.list.get(span.slot()).is_some_and(|active| {
+            let (start, end) = active.extent();
+            (start + 1..end).contains(&active.middle())
+        })
     }
 
     /// How near a triangle is as a whole.
@@ -126,30 +127,33 @@ impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
 
     /// Where the surfaces seen in two spans that meet cut each other.
     fn crossing(&self, left: Span, right: Span) -> Option<Silhouette> {
-        let pair = [self.list.get(left.slot())?, self.list.get(right.slot())?];
+        let half = |span: Span| self.list.get(span.slot())?.halves.get(span.half());
+        let pair = [half(left)?, half(right)?];
         Silhouette::crossing(pair, right.start() - 1, self.y)
     }
 
     /// An edge of the triangle that is seen in a span, if the span ends there.
     fn own(&self, span: Span, is_right: bool) -> Option<&Edge> {
-        let [left, right] = self.list.get(span.slot())?.sides();
+        let [left, right] = self.list.get(span.slot())?.sides_of(span.half());
         let (edge, at) = if is_right { (right, span.end()) } else { (left, span.start()) };
         (i32::from(edge.x()) == at).then_some(edge)
     }
 
-    /// The edge that ends the surface seen in a span, beyond triangles too thin to cover a pixel; none if the surface goes on,
-    /// behind what is seen next.
-    fn end(&self, span: Span, is_right: bool) -> Option<Silhouette> {
-        let mut edge = self.own(span, is_right)?;
+    /// The edge that ends a surface, beyond triangles too thin to cover a pixel, from the edge of the last triangle seen; none if the
+    /// surface goes on, in what is seen beside it or behind that.
+    fn end(&self, edge: Option<&Edge>, is_right: bool, beside: Option<&Edge>) -> Option<Silhouette> {
+        let mut edge = edge?;
+        let at = i32::from(edge.x());
+        let extents = self.list.extents();
+        let starting = extents.get(extents.partition_point(|other| other.start() < at)..).unwrap_or_default();
         for _ in 0..ACTIVE {
-            let at = i32::from(edge.x());
-            let near = |other: &&Span| at == if is_right { other.start() } else { other.end() };
-            let next = self.list.extents().iter().filter(near).find_map(|other| {
+            let next = starting.iter().take_while(|other| other.start() == at).find_map(|other| {
                 let [left, right] = self.list.get(other.slot())?.sides();
                 let (near, far) = if is_right { (left, right) } else { (right, left) };
                 near.is_near(edge).then_some((other.is_empty(), far))
             });
             match next {
+                None if beside.is_some_and(|beside| beside.is_near(edge)) => return None,
                 None => return Some(Silhouette::new(edge)),
                 Some((true, far)) => edge = far,
                 Some((false, ..)) => return None,
@@ -159,54 +163,80 @@ impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
     }
 }
 
-/// A line on its way into a row.
-struct Smoothing<'a, 'f, 'm, 'r, P, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
-    seen: Seen<'a, 'f, 'm, S, ACTIVE, LIGHTS, L>,
-    spans: &'a [Span],
-    row: Row<'r, P>,
+/// A subline's pixels.
+struct Subline<'a> {
+    colors: &'a mut [Color],
+    background: Color,
+    /// Outside of these, all show the background.
+    shown: Range<usize>,
+    /// The last span, or none for the background.
+    before: Option<Span>,
+    /// The last edge that ends a surface; what it cuts is not blended yet.
+    cut: Option<Cut>,
 }
 
-impl<P: Ink, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>
-    Smoothing<'_, '_, '_, '_, P, S, ACTIVE, LIGHTS, L>
-{
-    /// Stores pixels that show a span, or the background, and what cuts them.
-    fn store(&mut self, pixels: Range<usize>, span: Option<&Span>, cuts: &mut &[Cut]) {
-        let Range { start: mut x, end } = pixels;
-        while x < end {
-            let cut = loop {
-                match *cuts {
-                    [cut, rest @ ..] if usize::from(cut.to) <= x => *cuts = rest,
-                    [cut, ..] => break Some(cut),
-                    [] => break None,
-                }
-            };
-            let from = cut.map_or(end, |cut| usize::from(cut.from).min(end));
-            match cut {
-                Some(cut) if from <= x => {
-                    let is_left = x < usize::from(cut.at);
-                    let mut to = end.min(cut.to.into()).min(x + PIECE);
-                    if is_left {
-                        to = to.min(cut.at.into());
-                    }
-                    let [left, right] = cut.sides;
-                    let other = if is_left { right } else { left }.and_then(|place| self.spans.get(usize::from(place)));
-                    let (mut here, mut there) = ([Color::BLACK; PIECE], [Color::BLACK; PIECE]);
-                    self.seen.colors(span, x, here.get_mut(..to - x).unwrap_or_default());
-                    self.seen.colors(other, x, there.get_mut(..to - x).unwrap_or_default());
-                    let [left, right] = if is_left { [here, there] } else { [there, here] };
-                    let pixels = self.row.span(x, to).unwrap_or_default().iter_mut().zip(x as i32..);
-                    for ((pixel, x), (left, right)) in pixels.zip(left.into_iter().zip(right)) {
-                        *pixel = P::plain(left.mixed(right, cut.edge.right(x)));
-                    }
-                    x = to;
-                }
-                _ => {
-                    if let Some(span) = span {
-                        self.seen.shade(span, x, self.row.span(x, from).unwrap_or_default());
-                    }
-                    x = from;
-                }
+/// An edge that ends a surface, and the pixels that it cuts.
+struct Cut {
+    edge: Silhouette,
+    pixels: Range<usize>,
+    /// The first pixel that shows what is right of it.
+    at: usize,
+    /// The colours beside it.
+    sides: [Color; 2],
+}
+
+impl Subline<'_> {
+    /// Shades spans, from left to right.
+    fn show<S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(
+        &mut self,
+        spans: &[Span],
+        seen: &Seen<'_, '_, '_, S, ACTIVE, LIGHTS, L>,
+        edges: &Edges<'_, ACTIVE>,
+    ) {
+        let mut dressed = None;
+        for span in spans {
+            let Range { start, end } = span.range();
+            if self.before.is_some_and(|before| before.end() < span.start()) {
+                self.end(None, edges);
             }
+            if dressed.as_ref().is_none_or(|(look, _)| *look != span.look()) {
+                dressed = seen.dressed(span).map(|dressed| (span.look(), dressed));
+            }
+            if let Some((_, dressed)) = &dressed {
+                seen.shade_as(dressed, span, start, self.touch(start..end));
+            }
+            self.end(Some(*span), edges);
         }
+    }
+
+    /// Ends the last span, or the background, where the next one begins.
+    fn end<const ACTIVE: usize>(&mut self, next: Option<Span>, edges: &Edges<'_, ACTIVE>) {
+        if let Some(edge) = edges.between(self.before, next) {
+            let at = next.map_or(self.before.map_or(0, Span::end), Span::start).max(0) as usize;
+            let [from, to] = edge.pixels().map(|pixel| pixel.max(0) as usize);
+            // What lies between two edges is cut by the left one first.
+            let from = from.max(self.cut.as_ref().map_or(0, |cut| cut.at.max(cut.pixels.end.min(at))));
+            let sides = [at.saturating_sub(1), at].map(|x| self.colors.get(x).copied().unwrap_or(self.background));
+            self.blend(at);
+            self.cut = Some(Cut { edge, pixels: from..to, at, sides });
+        }
+        self.before = next;
+    }
+
+    /// Blends the pixels that the last edge cuts, up to the next one, with what is on its other side: all of that looks like the
+    /// pixel next to the edge.
+    fn blend(&mut self, until: usize) {
+        let Some(Cut { edge, pixels: Range { start, end }, at, sides: [left, right] }) = self.cut.take() else { return };
+        for (pixel, x) in self.touch(start..end.min(until)).iter_mut().zip(start..) {
+            let share = edge.right(x as i32);
+            *pixel = if x < at { pixel.mixed(right, share) } else { left.mixed(*pixel, share) };
+        }
+    }
+
+    /// Pixels that are to show more than the background.
+    fn touch(&mut self, pixels: Range<usize>) -> &mut [Color] {
+        let pixels = pixels.start..pixels.end.min(self.colors.len());
+        self.shown = self.shown.start.min(pixels.start)..self.shown.end.max(pixels.end);
+        self.colors.get_mut(pixels).unwrap_or_default()
     }
 }

@@ -154,12 +154,26 @@ pub fn frame<T, const LIGHTS: usize, L: FromReference>(
     meshes: &Meshes,
     see: impl FnOnce(beamshade::Picture<'_, '_, LIGHTS, L>) -> T,
 ) -> Result<T> {
-    fill(scene, meshes, None::<&Regular>, |picture, _| see(picture))
+    fill(scene, camera(&scene.camera), meshes, None::<&Regular>, |picture, _| see(picture))
+}
+
+/// The same, for smooth lines.
+///
+/// # Errors
+///
+/// As [`frame`].
+pub fn fine_frame<T, const LIGHTS: usize, L: FromReference>(
+    scene: &Scene<'_>,
+    meshes: &Meshes,
+    see: impl FnOnce(beamshade::Picture<'_, '_, LIGHTS, L>) -> T,
+) -> Result<T> {
+    fill(scene, camera(&scene.camera).smooth(), meshes, None::<&Regular>, |picture, _| see(picture))
 }
 
 /// The same, triangles split that way if any; `see` is told what became of each object's.
 fn fill<T, const LIGHTS: usize, L: FromReference>(
     scene: &Scene<'_>,
+    camera: Camera,
     meshes: &Meshes,
     split: Option<&impl Split<LIGHTS, L>>,
     see: impl FnOnce(beamshade::Picture<'_, '_, LIGHTS, L>, Vec<Splits>) -> T,
@@ -170,7 +184,7 @@ fn fill<T, const LIGHTS: usize, L: FromReference>(
     let lights: &[L; LIGHTS] = lights.as_slice().try_into().context("another number of lights")?;
     let [r, g, b] = scene.background.map(|c| c as f32);
     frame.background(Background::Plain(Color::rgb(r, g, b)));
-    frame.begin(&camera(&scene.camera), lights)?;
+    frame.begin(&camera, lights)?;
     let mut splits = Vec::new();
     for (mesh, object) in borrowed.iter().zip(&scene.objects) {
         let pose =
@@ -220,7 +234,7 @@ pub fn draw_split<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromRefer
     meshes: &Meshes,
     split: &impl Split<LIGHTS, L>,
 ) -> Result<(Picture<P>, Vec<Splits>)> {
-    fill(scene, meshes, Some(split), |picture, splits| {
+    fill(scene, camera(&scene.camera), meshes, Some(split), |picture, splits| {
         let mut scanner: Box<Scanner<ACTIVE, S, LIGHTS, L>> = Box::default();
         (read(&mut scanner.start(picture)), splits)
     })

@@ -26,6 +26,8 @@ pub struct Camera {
     rotation: Rotation,
     /// Of the panel, in quarters, counter-clockwise.
     quarters: u8,
+    /// Whether its pictures have sublines.
+    is_fine: bool,
 }
 
 impl Camera {
@@ -37,7 +39,11 @@ impl Camera {
         position: [Length::ZERO; 3],
         rotation: Rotation([Vector([0; 3]); 3]),
         quarters: 0,
+        is_fine: false,
     };
+
+    /// Lines that the picture of a [smooth](Self::smooth) camera has for each line of the panel.
+    pub const SUBLINES: u16 = 2;
 
     /// A camera for a picture of that size, 1024×1024 at most (larger is clamped), at the panel's top left corner;
     /// 40° of vertical field of view, 3 away from the origin on the z axis, near plane at 0.1.
@@ -50,6 +56,7 @@ impl Camera {
             position: [Length::ZERO, Length::ZERO, length(3.0)],
             rotation: Rotation::NONE,
             quarters: 0,
+            is_fine: false,
         }
     }
 
@@ -130,21 +137,36 @@ impl Camera {
         self
     }
 
-    /// Where the picture lies on the panel.
+    /// The same for [smooth lines](crate::Lines::smooth_line): its picture has two sublines for each line of the size given, which is
+    /// 1024×512 at most then, and takes a [`Frame`](crate::Frame) of twice the lines. Whatever else counts lines, such as
+    /// [`Lines::line`](crate::Lines::line) and [`Lines::pick`](crate::Lines::pick), counts sublines.
+    #[must_use]
+    pub const fn smooth(mut self) -> Self {
+        self.is_fine = true;
+        self
+    }
+
+    /// Lines of its picture for each line of the panel.
+    const fn sublines(&self) -> u32 {
+        1 << self.is_fine as u32
+    }
+
+    /// Where the picture lies on the panel, and its size, in [sublines](Self::smooth) if it has them.
     #[must_use]
     pub fn viewport(&self) -> Rectangle {
-        let size = self.viewport.size.component_min(Size::new(LARGEST, LARGEST));
-        Rectangle::new(self.viewport.top_left, size)
+        let Size { width, height } = self.viewport.size;
+        let height = height.min(LARGEST / self.sublines()) * self.sublines();
+        Rectangle::new(self.viewport.top_left, Size::new(width.min(LARGEST), height))
     }
 
     /// The focal length in subpixels: that which makes the field of view span the height as the viewer sees it.
     #[must_use]
     pub fn focal(&self) -> u32 {
         let size = self.viewport().size;
-        let height = if self.quarters & 1 == 0 { size.height } else { size.width };
+        let height = if self.quarters & 1 == 0 { size.height } else { size.width * self.sublines() };
         let (sin, cos) = self.field_of_view.half().sin_cos();
         let half_height = i64::from(height) * i64::from(SUBPIXELS) / 2;
-        // 1° to 85°: the sine is positive. The largest focal length, 29 heights, fits 23 bits.
+        // 1° to 85°: the sine is positive. The largest focal length, 29 heights, fits 24 bits.
         let sin = i64::from(sin.max(1));
         ((half_height * i64::from(cos) + sin / 2).checked_div(sin).unwrap_or(1)).max(1) as u32
     }
@@ -164,7 +186,9 @@ impl Camera {
     #[must_use]
     pub fn project(&self, mesh: &Mesh<'_>, pose: &Pose) -> Projection {
         // The eye's axes: right, down, forward.
-        let to_eye = self.panel() * self.rotation.inverse();
+        let Rotation([right, down, forward]) = self.panel() * self.rotation.inverse();
+        // Where sublines are closer together than columns, all is narrower and the focal length greater.
+        let to_eye = Rotation([Vector(right.0.map(|c| c >> u32::from(self.is_fine))), down, forward]);
         let apart = |i: usize| {
             let from = self.position.get(i).map_or(0, |p| i64::from(p.to_bits()));
             pose.position.get(i).map_or(0, |p| i64::from(p.to_bits())) - from

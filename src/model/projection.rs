@@ -200,8 +200,8 @@ impl Projection {
     #[must_use]
     pub fn sight(&self, center: [i16; 3], radius: u16) -> Sight {
         let [x, y, z] = self.eye(center).map(i64::from);
-        // Each row is as long as the scale's mantissa.
-        let [Row { high, .. }, ..] = self.eye;
+        // Each row is as long as the scale's mantissa, or shorter.
+        let [.., Row { high, .. }] = self.eye;
         let [a, b, c] = high.map(i64::from);
         let mantissa = ((a * a + b * b + c * c) as u64).isqrt() as i64 + 3;
         let radius = ((mantissa * i64::from(radius)) >> self.drop) + 2;
