@@ -57,9 +57,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = Model::load(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/teapot-880.obj"), &options)?.quantize()?;
     let teapot = model.mesh();
 
-    let mut frame = Frame::<512, 512, HEIGHT>::new();
+    let mut frame = Frame::<512, 320, HEIGHT>::new();
     frame.background(Background::Gradient { top: Color::rgb(0.02, 0.03, 0.10), bottom: Color::rgb(0.25, 0.30, 0.40) });
-    let mut scanner = Scanner::<72>::new();
+    let mut scanner = Scanner::<48>::new();
     let camera = Camera::new(Size::new(WIDTH as u32, HEIGHT as u32)).at_distance(2.45);
     let light = Light::directional([-0.5, 0.7, 0.6]);
     let mut overlay = Overlay::<100, 15, { buffer_size::<BinaryColor>(100, 15) }>::new(Point::new(8, 8));

@@ -18,8 +18,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let teapot = model.mesh();
 
     // All the memory that rendering takes. `cargo demo` tells how much a model needs.
-    let mut frame = Frame::<512, 512, SIDE>::new(); // vertices, triangles that face the eye, lines
-    let mut scanner = Scanner::<72, Method>::new(); // triangles that cross one line
+    let mut frame = Frame::<512, 320, SIDE>::new(); // vertices, triangles or pairs that face the eye, lines
+    let mut scanner = Scanner::<48, Method>::new(); // triangles or pairs that cross one line
     let mut row = [Rgb565::BLACK; SIDE];
 
     // Any DrawTarget will do. This one is wide enough for four pictures side by side.

@@ -10,7 +10,7 @@ use crate::{
         material::{Color, Material},
     },
     price::{cycles, Price},
-    scan::{active::Active, table::Span, visibility::Visibility},
+    scan::{table::Span, visibility::Visibility},
     scanner::{Line, Lines, Take},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{
@@ -193,7 +193,7 @@ impl<'m, S: Shade<LIGHTS, L>, const SPANS: usize, const LIGHTS: usize, L: LightS
         self.material = material;
     }
 
-    fn span(&mut self, span: Span, facet: &S::Facet, _: &Active) {
+    fn span(&mut self, span: Span, facet: &S::Facet, _: u16) {
         let Range { start, end } = span.range();
         let registers = S::start(facet, start as i32, self.y);
         let span = Prepared { start: start as u16, end: end as u16, material: self.material, registers };

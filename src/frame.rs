@@ -1,7 +1,5 @@
 //! From meshes to a picture: transform, light, cull, clip, and sort into buckets by line.
 
-use core::slice::from_ref;
-
 use heapless::Vec;
 
 use crate::{
@@ -26,7 +24,8 @@ use crate::{
 /// One frame's geometry, filled anew for each frame: [`begin`](Frame::begin), then [`add`](Frame::add) each object.
 ///
 /// It owns its memory: 12 bytes a vertex (8 and 4 for each light), 4 a triangle that faces the eye and touches the picture,
-/// 2 a line. Meshes are borrowed. `OBJECTS` counts objects in sight; `MADE` triangles and their corners, which take the place
+/// 2 a line. Two triangles that follow each other in the mesh as a, b, c and a, c, d take the room of one where they are convex together
+/// on the screen. Meshes are borrowed. `OBJECTS` counts objects in sight; `MADE` triangles and their corners, which take the place
 /// of vertices, come from clipping at the near plane and at 1535 pixels from the picture's centre, and from
 /// [splitting](Frame::add_split) where a highlight may lie.
 #[derive(Clone, Debug)]
@@ -183,6 +182,11 @@ impl<
     /// # Errors
     /// [`Full`], naming what there was no room for. The frame stays drawable.
     pub fn add(&mut self, mesh: &'m Mesh<'m>, pose: &Pose) -> Result<(), Full> {
+        self.add_by(mesh, pose, true)
+    }
+
+    /// The same, with triangles kept in pairs where they can be, or one by one.
+    pub(crate) fn add_by(&mut self, mesh: &'m Mesh<'m>, pose: &Pose, pairs: bool) -> Result<(), Full> {
         let number = self.added;
         self.added = self.added.saturating_add(1);
         let data = mesh.data();
@@ -223,7 +227,7 @@ impl<
                 *vertex = Vertex::new(projection.screen(projection.eye(*position)), vertex.dots);
             }
         }
-        self.keep(&object, &projection, &aims, matches!(sight, Sight::Whole(_)))
+        self.keep(&object, &projection, &aims, matches!(sight, Sight::Whole(_)), pairs)
     }
 
     /// Culls, clips and sorts the triangles of an object whose vertices are there.
@@ -233,6 +237,7 @@ impl<
         projection: &Projection,
         aims: &[L::Aim; LIGHTS],
         is_whole: bool,
+        pairs: bool,
     ) -> Result<(), Full> {
         let data = object.mesh.data();
         let mut rest = data.triangles;
@@ -242,25 +247,23 @@ impl<
             let double_sided = data.materials.get(usize::from(*material)).is_some_and(|material| material.double_sided);
             let (triangles, others) = rest.split_at_checked(usize::from(*count)).unwrap_or((rest, &[]));
             rest = others;
-            if is_whole {
+            let mut triangles = triangles;
+            loop {
                 let vertices = self.vertices.get(usize::from(object.first_vertex)..self.used).unwrap_or_default();
-                tally.sorted += self.buckets.sort(vertices, triangles, TriangleId(id), double_sided);
-                id += *count;
-                continue;
-            }
-            for corners in triangles {
-                let whole = TriangleId(id);
-                id += 1;
-                let vertices = self.vertices.get(usize::from(object.first_vertex)..self.used).unwrap_or_default();
-                let Some([a, b, c]) = at(vertices, *corners) else { continue };
-                if a.nearness() == 0 || b.nearness() == 0 || c.nearness() == 0 {
-                    match self.cut(object, *corners, whole, double_sided, projection, aims) {
-                        Ok(parts) => tally.made += parts,
-                        Err(()) => tally.unmade += 1,
-                    }
-                } else {
-                    tally.sorted += self.buckets.sort(vertices, from_ref(corners), whole, double_sided);
+                let is_cut = |corners: &[u16; 3]| {
+                    at(vertices, *corners).is_some_and(|corners| corners.iter().any(|corner| corner.nearness() == 0))
+                };
+                let whole = if is_whole { None } else { triangles.iter().position(is_cut) }.unwrap_or(triangles.len());
+                let (run, others) = triangles.split_at_checked(whole).unwrap_or((triangles, &[]));
+                tally.sorted += self.buckets.sort(vertices, run, TriangleId(id), double_sided, pairs);
+                id += run.len() as u16;
+                let [corners, others @ ..] = others else { break };
+                match self.cut(object, *corners, TriangleId(id), double_sided, projection, aims) {
+                    Ok(parts) => tally.made += parts,
+                    Err(()) => tally.unmade += 1,
                 }
+                id += 1;
+                triangles = others;
             }
         }
         let Tally { sorted: Sorted { fitted, left_out }, made, unmade } = tally;
@@ -318,7 +321,7 @@ impl<
             let [Some(a), Some(b), Some(c)] = [first.vertex, second.vertex, third.vertex] else { continue };
             let id = TriangleId(TriangleId::MADE - self.made.len() as u16);
             let vertices = self.vertices.get(..self.used).unwrap_or_default();
-            let sorted = self.buckets.sort(vertices, &[[a, b, c]], id, double_sided);
+            let sorted = self.buckets.sort(vertices, &[[a, b, c]], id, double_sided, false);
             if sorted.fitted + sorted.left_out == 0 {
                 continue;
             }

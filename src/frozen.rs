@@ -12,7 +12,6 @@ use crate::{
     },
     price::Price,
     scan::{
-        active::Active,
         bucket::TriangleId,
         geometry::Source,
         picture::{Background, Picture},
@@ -241,9 +240,8 @@ impl<'m, S: Shade<LIGHTS, L>, const SPANS: usize, const FACETS: usize, const LIG
         }
     }
 
-    fn span(&mut self, span: Span, _: &S::Facet, active: &Active) {
+    fn span(&mut self, span: Span, _: &S::Facet, number: u16) {
         let Range { start, end } = span.range();
-        let number = active.facet;
         let span = Piece { start: start as u16, end: end as u16, facet: number - 1 };
         let fits = number != NO_ROOM && self.spans.len() < usize::from(u16::MAX) && self.spans.push(span).is_ok();
         self.left_out += u16::from(!fits);

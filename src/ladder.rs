@@ -172,30 +172,29 @@ impl<const LINES: usize> Plan<LINES> {
         }
         let mut known = Known::default();
         let mut near_facets = 0;
-        for id in geometry.starting(y) {
-            known.work.entered += 1;
-            known.work.long += geometry.corners(id).map_or(0, |corners| Active::long(corners, y, false));
-        }
+        known.work.entered = geometry.starting(y).count() as u32;
         for extent in extents {
             let Some(active) = slots.get_mut(usize::from(extent.slot())) else { continue };
-            let covering = known.add(active, &here, width);
-            if active.turned_on(y, geometry.vertices) {
-                known.work.turned += 1;
-                known.work.long += geometry.corners(active.id).map_or(0, |corners| Active::long(corners, y, true));
-            }
+            let overlaps = known.add(active, &here, width);
+            let outline = picture.outline(active.halves.each_ref().map(|half| half.id));
+            known.work.turned += u32::from(outline.turns(y));
+            known.work.long += outline.long(y);
+            let (is_near, columns, count) = (!is_far(active), active.columns_of(width), active.count());
             // Until now no facets were set up: their numbers say what is known of each triangle.
-            if covering.overlaps && active.facet & EXACT_KNOWN == 0 {
-                active.facet |= EXACT_KNOWN | if active.deepen(geometry) > 0 { EXACT } else { 0 };
-            }
-            known.work.exact += u32::from(covering.overlaps && active.facet & EXACT != 0);
-            if covering.is_there && active.facet & SEEN == 0 {
-                known.work.facets += 1;
-                let lines = picture.lines(active.id).map_or(0, |[start, _, end]| end.saturating_sub(start));
-                known.work.asked += u32::from(lines);
-                near_facets += u32::from(!is_far(active));
-            }
-            if covering.is_there && !covering.overlaps {
-                active.facet |= SEEN;
+            for (half, columns) in active.halves.iter_mut().zip(columns).take(count.into()) {
+                if overlaps && half.facet & EXACT_KNOWN == 0 {
+                    half.facet |= EXACT_KNOWN | if half.deepen(geometry) > 0 { EXACT } else { 0 };
+                }
+                known.work.exact += u32::from(overlaps && half.facet & EXACT != 0);
+                if !columns.is_empty() && half.facet & SEEN == 0 {
+                    known.work.facets += 1;
+                    let lines = picture.lines(half.id).map_or(0, |[start, _, end]| end.saturating_sub(start));
+                    known.work.asked += u32::from(lines);
+                    near_facets += u32::from(is_near);
+                }
+                if !columns.is_empty() && here.is_single(columns) {
+                    half.facet |= SEEN;
+                }
             }
         }
         let crossing = known.work.active;
@@ -248,7 +247,8 @@ impl Rungs {
 
 /// Halfway between the farthest and the nearest corner of a picture, the upper 16 bits of the nearness.
 fn middle<const LIGHTS: usize, L: LightSource>(picture: &Picture<'_, '_, LIGHTS, L>) -> u16 {
-    let corners = picture.geometry.kept.iter().filter_map(|kept| picture.geometry.corners(kept.triangle)).flatten();
+    let corners =
+        picture.geometry.kept.iter().flat_map(|kept| kept.triangles()).filter_map(|id| picture.geometry.corners(id)).flatten();
     let (far, near) = corners.map(Vertex::nearness).fold((u32::MAX, 0), |(far, near), w| (far.min(w), near.max(w)));
     ((u64::from(far) + u64::from(near)) >> 9) as u16
 }

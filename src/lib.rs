@@ -36,8 +36,8 @@
 //!
 //! let camera = Camera::new(Size::new(64, 48)).field_of_view(Turn::degrees(40)).at_distance(2.45);
 //! let light = Light::directional([-0.5, 0.7, 0.6]);
-//! let mut frame = Frame::<512, 512, 48>::new(); // vertices, triangles that face the eye, lines
-//! let mut scanner = Scanner::<72>::new(); // triangles that cross one line
+//! let mut frame = Frame::<512, 320, 48>::new(); // vertices, triangles or pairs that face the eye, lines
+//! let mut scanner = Scanner::<48>::new(); // triangles or pairs that cross one line
 //! let mut row = [Rgb565::BLACK; 64];
 //!
 //! frame.begin(&camera, &[light])?;

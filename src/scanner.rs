@@ -27,9 +27,10 @@ use crate::{
     work::{Tally, Work},
 };
 
-/// The state of a walk down a picture: up to `ACTIVE` triangles that cross one line, each with a facet of the shading method.
+/// The state of a walk down a picture: up to `ACTIVE` triangles that cross one line, each with a facet of the shading method. Two that the
+/// [frame](crate::Frame) keeps as one are one here, too.
 ///
-/// Owns its memory: about 140 bytes for each active triangle with the default method and one light.
+/// Owns its memory: about 240 bytes for each of `ACTIVE` with the default method and one light.
 #[derive(Clone, Debug)]
 pub struct Scanner<
     const ACTIVE: usize,
@@ -39,7 +40,7 @@ pub struct Scanner<
     V: Visibility = Spanning,
 > {
     list: ActiveList<ACTIVE>,
-    facets: [S::Facet; ACTIVE],
+    facets: [[S::Facet; 2]; ACTIVE],
     table: Table,
     visibility: V,
 }
@@ -50,7 +51,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     /// A scanner at rest.
     #[must_use]
     pub const fn new() -> Self {
-        Self { list: ActiveList::new(), facets: [S::EMPTY; ACTIVE], table: Table::new(), visibility: V::NEW }
+        Self { list: ActiveList::new(), facets: [[S::EMPTY; 2]; ACTIVE], table: Table::new(), visibility: V::NEW }
     }
 
     /// Starts on a picture, above its first line, with an empty list of triangles.
@@ -71,7 +72,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
 /// What a line was made of, and what had no room.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Line {
-    /// Triangles that cross it.
+    /// Triangles that cross it; two that are kept as one count once.
     pub active: u16,
     /// Visible spans; pieces that clipping or splitting made of one triangle count apart.
     pub spans: u16,
@@ -174,10 +175,12 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         let Scanner { list, table, visibility, .. } = &mut *self.scanner;
         let geometry = &self.picture.geometry;
         visibility.resolve(y, geometry.width(), list, geometry, table, |spans, slots| {
-            for span in spans.iter().filter(|span| !span.is_empty()) {
-                let source = slots.get(usize::from(span.slot())).and_then(|active| geometry.source(active.id));
-                if let Some(source) = source {
-                    see(span.start() as u16..span.end() as u16, source);
+            for span in spans {
+                let Some(active) = slots.get(usize::from(span.slot())) else { continue };
+                for (half, span) in active.halves.iter().zip(span.halves(active.middle().into())) {
+                    if let (false, Some(source)) = (span.is_empty(), geometry.source(half.id)) {
+                        see(span.start() as u16..span.end() as u16, source);
+                    }
                 }
             }
         });
@@ -194,7 +197,7 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
     }
 
     /// The facets of the triangles that are seen, by their slots.
-    pub(crate) const fn facets(&self) -> &[S::Facet; ACTIVE] {
+    pub(crate) const fn facets(&self) -> &[[S::Facet; 2]; ACTIVE] {
         &self.scanner.facets
     }
 
@@ -237,12 +240,19 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         let picture = &self.picture;
         let look = list.extents().first().map_or(0, |extent| extent.look());
         let line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::NONE };
-        let mut walk =
-            Walk { picture, facets, to, look, material, spans: 0, made: 0, bent: 0, degraded: self.degraded, tally: Tally::NONE };
+        let mut walk = Walk {
+            picture,
+            facets,
+            to,
+            look,
+            material,
+            spans: 0,
+            made: 0,
+            bent: 0,
+            degraded: &mut self.degraded,
+            tally: Tally::NONE,
+        };
         visibility.resolve(y, width as i32, list, &picture.geometry, table, |spans, slots| walk.see(spans, slots));
-        if S::BY_RUNG {
-            self.degraded = walk.degraded;
-        }
         let (active, spans, facets) = (line.active.into(), walk.spans.into(), walk.made.into());
         list.tally.add(Work { active, spans, facets, ..walk.tally.work() });
         (Line { spans: walk.spans, facets: walk.made, bent: walk.bent, ..line }, walk.to)
@@ -337,14 +347,14 @@ pub(crate) trait Take<'m, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
         1
     }
 
-    /// A span, which is not empty, of a triangle with that facet.
-    fn span(&mut self, span: Span, facet: &S::Facet, active: &Active);
+    /// A span, which is not empty, of a triangle with that facet, of that number.
+    fn span(&mut self, span: Span, facet: &S::Facet, number: u16);
 }
 
 /// Spans on their way to whoever takes them.
 struct Walk<'a, 'f, 'm, T, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
     picture: &'a Picture<'f, 'm, LIGHTS, L>,
-    facets: &'a mut [S::Facet; ACTIVE],
+    facets: &'a mut [[S::Facet; 2]; ACTIVE],
     to: T,
     /// The material, and its number.
     look: u16,
@@ -353,7 +363,7 @@ struct Walk<'a, 'f, 'm, T, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHT
     spans: u16,
     made: u16,
     bent: u16,
-    degraded: Degraded,
+    degraded: &'a mut Degraded,
     tally: Tally,
 }
 
@@ -365,31 +375,49 @@ impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, co
     fn see(&mut self, spans: &[Span], slots: &mut [Active; ACTIVE]) {
         self.spans += spans.len() as u16;
         for span in spans {
-            let Range { start, end } = span.range();
-            if start >= end {
+            if span.is_empty() {
                 self.skip();
                 continue;
             }
             if self.look != span.look() {
                 self.dress(span.look());
             }
-            let slot = usize::from(span.slot());
-            let (Some(active), Some(facet)) = (slots.get_mut(slot), self.facets.get_mut(slot)) else { continue };
-            if active.facet == 0 {
-                let surface = Surface { material: self.material, intensities: self.picture.intensities };
-                self.made += 1;
-                let mut rung = 0;
-                if S::BY_RUNG {
-                    let steps = self.picture.steps_of(active.id);
-                    self.tally.add(Work { asked: steps.len() as u32, ..Work::NONE });
-                    rung = self.picture.steps.rung(steps, active);
-                    self.degraded.count(rung);
-                }
-                self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, active, rung, &surface, facet));
-                active.facet = self.to.keep(facet, active.id);
+            let Some(active) = slots.get_mut(usize::from(span.slot())) else { break };
+            let (start, middle, end) = (span.start(), i32::from(active.middle()), span.end());
+            if middle >= end {
+                self.show::<0>(*span, active);
+                continue;
             }
-            self.to.span(*span, facet, active);
+            if middle > start {
+                self.spans += 1;
+                self.show::<0>(span.with(start, middle), active);
+            }
+            self.show::<1>(span.with(middle.max(start), end).right(), active);
         }
+    }
+
+    /// Hands on a span of one triangle.
+    #[inline(always)]
+    fn show<const HALF: usize>(&mut self, span: Span, active: &mut Active) {
+        let [_, near] = active.reach();
+        let facets = self.facets.get_mut(usize::from(span.slot()));
+        let (Some(half), Some(facet)) = (active.halves.get_mut(HALF), facets.and_then(|facets| facets.get_mut(HALF))) else {
+            return;
+        };
+        if half.facet == 0 {
+            let surface = Surface { material: self.material, intensities: self.picture.intensities };
+            self.made += 1;
+            let mut rung = 0;
+            if S::BY_RUNG {
+                let steps = self.picture.steps_of(half.id);
+                self.tally.add(Work { asked: steps.len() as u32, ..Work::NONE });
+                rung = self.picture.steps.rung(steps, near);
+                self.degraded.count(rung);
+            }
+            self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, half.id, rung, &surface, facet));
+            half.facet = self.to.keep(facet, half.id);
+        }
+        self.to.span(span, facet, half.facet);
     }
 
     /// Does not count a span that is empty.
@@ -442,7 +470,7 @@ impl<'m: 'a, 'a, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSourc
     }
 
     #[inline(always)]
-    fn span(&mut self, span: Span, facet: &S::Facet, _: &Active) {
+    fn span(&mut self, span: Span, facet: &S::Facet, _: u16) {
         let Range { start, end } = span.range();
         if let Some(pixels) = self.row.span(start, end) {
             shade::<P, S, LIGHTS, L>(&self.dressed, facet, start as i32, pixels);
@@ -465,12 +493,12 @@ pub(crate) fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSo
 #[inline(never)]
 fn set_up<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
     picture: &Picture<'_, '_, LIGHTS, L>,
-    active: &Active,
+    id: TriangleId,
     rung: u8,
     surface: &Surface<'_, LIGHTS>,
     facet: &mut S::Facet,
 ) -> bool {
-    let Some(triangle) = picture.triangle(active.id) else { return false };
+    let Some(triangle) = picture.triangle(id) else { return false };
     let corners;
     let triangle = Triangle { rung, ..triangle };
     let triangle = if surface.material.double_sided && triangle.is_turned() {

@@ -7,7 +7,7 @@ use beamshade::math::{
     power::Power,
     product::scale,
     reciprocal::{rough, Reciprocal},
-    root::{inverse_root, square_root, ReciprocalRoot},
+    root::{inverse_root, near_inverse_root, square_root, ReciprocalRoot},
     rotation::Rotation,
     screen::{area, first_at},
     vector::Vector,
@@ -111,6 +111,20 @@ fn reciprocal_root() {
     documented("largest up to 0.5", largest, 5.8e-5);
     assert_eq!([inverse_root(-1), inverse_root(i32::MIN), inverse_root(0)], [1 << 15; 3]);
     assert_eq!([inverse_root(3 * quarter), inverse_root(4 * quarter), inverse_root(i32::MAX)], [2 << 15, 8 << 15, 8 << 15]);
+}
+
+#[test]
+fn near_reciprocal_root() {
+    let one = f64::from(1 << 28);
+    let error = |u: i32| f64::from(near_inverse_root(u)) / 32768.0 * (1.0 - f64::from(u) / one).sqrt() - 1.0;
+    let quarter = 1 << 26;
+    let (largest, rms) = statistics((0..3 * quarter).step_by(997).map(error));
+    documented("largest", largest, 1e-3);
+    documented("RMS", rms, 3e-4);
+    let (largest, _) = statistics((0..2 * quarter).step_by(997).map(error));
+    documented("largest up to 0.5", largest, 5.2e-4);
+    assert!((3 * quarter..4 * quarter).step_by(997).all(|u| near_inverse_root(u) == inverse_root(u)));
+    assert_eq!([near_inverse_root(-1), near_inverse_root(i32::MAX)], [near_inverse_root(0), 8 << 15]);
 }
 
 /// Numbers of all sizes, and those about powers of two.

@@ -17,6 +17,19 @@ pub fn inverse_root(u: i32) -> u32 {
     }
 }
 
+/// The same to the nearest of 1024 places a unit: one look-up less a product, for pixels.
+///
+/// Relative error at most 5.2·10⁻⁴ up to u = 0.5 and 10⁻³ up to 0.75, RMS 3·10⁻⁴; none beyond that of [`inverse_root`].
+#[inline(always)]
+#[must_use]
+pub fn near_inverse_root(u: i32) -> u32 {
+    let u = (u & !(u >> 31)) as u32;
+    match NEAR.get((u >> NEAR_SHIFT) as usize) {
+        Some(entry) => u32::from(*entry),
+        None => steep(u),
+    }
+}
+
 /// The same for u from 0.75.
 #[cold]
 #[inline(never)]
@@ -95,6 +108,24 @@ const SHIFT: u32 = 28 - 7 - 8;
 /// Rise over the interval in the high half, value at its start in the low half; Q15.
 static TABLE: [u32; INTERVALS] = table();
 
+const NEARS: usize = 8 * INTERVALS;
+/// `u >> NEAR_SHIFT` counts intervals of 1/1024 in a Q28 number.
+const NEAR_SHIFT: u32 = 28 - 10;
+
+/// `1/√(1 − u)` in the middle of each interval, Q15.
+static NEAR: [u16; NEARS] = near();
+
+#[expect(clippy::indexing_slicing, reason = "evaluated by the compiler")]
+const fn near() -> [u16; NEARS] {
+    let mut near = [0; NEARS];
+    let mut i = 0;
+    while i < NEARS {
+        near[i] = root_of_inverse(2 * i as u64 + 1, 2048) as u16;
+        i += 1;
+    }
+    near
+}
+
 #[expect(clippy::indexing_slicing, reason = "evaluated by the compiler")]
 const fn table() -> [u32; INTERVALS] {
     let mut table = [0; INTERVALS];
@@ -109,8 +140,12 @@ const fn table() -> [u32; INTERVALS] {
     table
 }
 
-/// `32768/√(1 − i/128)`, rounded.
 const fn knot(i: u64) -> u32 {
-    // (2·32768)²·128/(128 − i) is four times the square: the root to half a unit, then rounded.
-    ((1 << 32) * 128 / (128 - i)).isqrt().div_ceil(2) as u32
+    root_of_inverse(i, 128)
+}
+
+/// `32768/√(1 − i/whole)`, rounded.
+const fn root_of_inverse(i: u64, whole: u64) -> u32 {
+    // (2·32768)²·whole/(whole − i) is four times the square: the root to half a unit, then rounded.
+    ((1 << 32) * whole / (whole - i)).isqrt().div_ceil(2) as u32
 }

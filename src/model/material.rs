@@ -30,6 +30,18 @@ impl Color {
         self
     }
 
+    /// Its factors, none of them above one.
+    #[inline]
+    pub(crate) fn limited(self) -> [u16; 3] {
+        let Self(factors @ [r, g, b]) = self;
+        // Rarely is one of them all of the light, and another one not, or one even more.
+        if r | g | b > 1 << 15 {
+            factors.map(|factor| factor.min(1 << 15))
+        } else {
+            factors
+        }
+    }
+
     /// How bright it is, (77 R + 150 G + 29 B) / 256, Q15.
     #[must_use]
     pub const fn luma(self) -> u16 {

@@ -2,35 +2,53 @@
 
 use embedded_graphics::geometry::Point;
 
-use super::{bucket::TriangleId, edge::Edge, geometry::Geometry, table::Span, vertex::Vertex};
+use super::{
+    bucket::{at, Kept, TriangleId},
+    course::Course,
+    edge::Edge,
+    geometry::Geometry,
+    vertex::Vertex,
+};
 use crate::math::{
     gradient::Gradient,
-    screen::{area, first_at, SUBPIXELS},
+    screen::{area, SUBPIXELS},
 };
 
-/// A triangle on one line: where it begins and ends, how deep it is, and how to go on to the next line.
+/// A triangle on one line, or two that share an edge and make a convex quadrilateral: where it begins and ends, how deep it is, and how
+/// to go on to the next line.
 #[derive(Clone, Copy, Debug)]
 pub struct Active {
     left: Edge,
     right: Edge,
-    /// Nearness at the centre of pixel (0, 0), and its increase for a pixel to the right and down; wrapping. Valid once `deep`.
-    depth: [i32; 3],
-    /// The first line below the middle corner, until it is reached; then that below the last.
+    /// Between two triangles; where only one of them is on the line, far out on the other's side.
+    diagonal: Edge,
+    /// The triangle left of the diagonal, which a single one is, and the one right of it.
+    pub(crate) halves: [Half; 2],
+    /// The first line below the next corner.
     turn: u16,
     /// The first line below the last corner.
     end: u16,
     /// The least and the largest nearness of the corners, the upper 16 bits, rounded apart.
     far: u16,
     near: u16,
-    pub(crate) id: TriangleId,
-    /// The middle and the last corner, among the frame's vertices.
-    lower: [u16; 2],
+    /// The corners still to come, from top to bottom, among the frame's vertices; the last one again where there are no three.
+    lower: [u16; 3],
+    /// What is to come at these corners.
+    course: Course,
+    /// Whether there are two triangles.
+    is_pair: bool,
     /// The next free slot, if this one is free.
     pub(crate) next: u16,
+}
+
+/// One of the triangles of an [`Active`].
+#[derive(Clone, Copy, Debug)]
+pub struct Half {
+    /// Nearness at the centre of pixel (0, 0), and its increase for a pixel to the right and down; wrapping. Valid once `deep`.
+    depth: [i32; 3],
+    pub(crate) id: TriangleId,
     /// The number of its facet, from 1 on; 0 before it is set up.
     pub(crate) facet: u16,
-    /// Whether the middle corner is on the left.
-    middle_left: bool,
     /// Whether `depth` is there.
     pub(crate) deep: bool,
 }
@@ -43,76 +61,89 @@ impl Active {
     pub(crate) const NONE: Self = Self {
         left: Edge::NONE,
         right: Edge::NONE,
-        depth: [0; 3],
+        diagonal: Edge::NONE,
+        halves: [Half::NONE; 2],
         turn: 0,
         end: 0,
         far: 0,
         near: 0,
-        id: TriangleId(0),
-        lower: [0; 2],
+        lower: [0; 3],
+        course: Course::NONE,
+        is_pair: false,
         next: 0,
-        facet: 0,
-        middle_left: false,
-        deep: false,
     };
 
-    /// Becomes a triangle on line `line`, on which or above which it must start. Returns the number of its material; none if it
-    /// is not on that line.
+    /// Becomes what was kept, on line `line`, on which or above which it must start. Returns the number of its material; none if
+    /// it is not on that line.
     #[inline(never)]
     pub(crate) fn begin<const LIGHTS: usize>(
         &mut self,
-        id: TriangleId,
+        kept: Kept,
         line: u16,
         geometry: &Geometry<'_, '_, LIGHTS>,
     ) -> Option<u16> {
-        let numbers = geometry.numbers(id)?;
+        let numbers = geometry.numbers(kept.triangle)?;
         let look = numbers.look();
         let [na, nb, nc] = numbers.corners;
-        let (a, b, c) = (geometry.vertex(na)?, geometry.vertex(nb)?, geometry.vertex(nc)?);
-        self.id = id;
+        let [a, b, c] = at(geometry.vertices, numbers.corners)?;
         let [wa, wb, wc] = [a, b, c].map(Vertex::nearness);
-        self.far = (wa.min(wb).min(wc) >> 8) as u16;
-        self.near = ((wa.max(wb).max(wc) + 0xff) >> 8) as u16;
-        let [(_, top), (nb, middle), (nc, bottom)] = by_height([(na, a), (nb, b), (nc, c)]);
-        self.lower = [nb, nc];
-        let start = i32::from(line);
-        let end = first_at(bottom.point().y);
+        self.is_pair = kept.is_pair();
+        let names = [na, nb, nc, if self.is_pair { numbers.fourth()? } else { nc }];
+        let [_, _, _, nd] = names;
+        let vertices = [a, b, c, geometry.vertex(nd)?];
+        let [_, _, _, d] = vertices;
+        let wd = d.nearness();
+        self.far = (wa.min(wb).min(wc).min(wd) >> 8) as u16;
+        self.near = ((wa.max(wb).max(wc).max(wd) + 0xff) >> 8) as u16;
+        let [t, m1, m2, e] = by_height(vertices, self.is_pair);
+        self.course =
+            if self.is_pair { Course::of(t, m1, m2) } else { Course::of_one(t, m1, area(a.point(), b.point(), c.point()) < 0) };
+        self.lower = [pick(&names, m1), pick(&names, m2), pick(&names, e)];
+        let [left, right] = &mut self.halves;
+        (left.id, left.facet, left.deep) = (kept.triangle, 0, false);
+        (right.id, right.facet, right.deep) = (kept.triangle, 0, false);
+        if self.is_pair {
+            if self.course.is(Course::SECOND_LEFT) { left } else { right }.id = kept.triangle.next();
+        }
+
+        let (top, first, second, last) = (pick(&vertices, t), pick(&vertices, m1), pick(&vertices, m2), pick(&vertices, e));
+        let (start, end) = (i32::from(line), last.pixel().y);
         if start >= end {
             return None;
         }
         self.end = end as u16;
-        let middle_line = first_at(middle.point().y);
-        let above = start < middle_line;
-        self.turn = if above { middle_line } else { end } as u16;
-        // Clockwise from the top: the middle corner is on the right.
-        self.middle_left = area(top.point(), middle.point(), bottom.point()) < 0;
-        let [bent, straight] = self.edges();
-        let (from, to) = if above { (top, middle) } else { (middle, bottom) };
-        bent.set(from, to, start);
-        straight.set(top, bottom, start);
-        (self.deep, self.facet) = (false, 0);
+        let course = self.course;
+        let [bent, straight] = self.edges(course.is(Course::LEFT));
+        bent.join(top, first, start);
+        straight.join(top, if course.goes_on() { last } else { second }, start);
+        self.diagonal = Edge::beyond(!(course.is(Course::BEGINS) && course.is(Course::LEFT)));
+        if self.is_pair && !course.is(Course::BEGINS) {
+            self.diagonal.join(top, if course.is(Course::ENDS_AFTER) { second } else { last }, start);
+        }
+        let turn = first.pixel().y;
+        self.turn = turn as u16;
+        if turn <= start {
+            self.bend(line.into(), geometry.vertices);
+        }
         Some(look)
     }
 
-    /// Edges for which [`Edge::set`] takes 64 bits where it begins on line `line`, or turns there.
-    pub(crate) fn long<const LIGHTS: usize>(corners: [&Vertex<LIGHTS>; 3], line: u16, turns: bool) -> u32 {
-        let [(_, top), (_, middle), (_, bottom)] = by_height(corners.map(|corner| (0, corner)));
-        let line = i32::from(line);
-        let (from, to) = if line < first_at(middle.point().y) { (top, middle) } else { (middle, bottom) };
-        u32::from(Edge::is_long(from, to, line)) + u32::from(!turns && Edge::is_long(top, bottom, line))
-    }
-
-    /// The edges with the middle corner and without.
+    /// The edge on that side, and the other one.
     #[inline(always)]
-    fn edges(&mut self) -> [&mut Edge; 2] {
-        if self.middle_left {
+    fn edges(&mut self, is_left: bool) -> [&mut Edge; 2] {
+        if is_left {
             [&mut self.left, &mut self.right]
         } else {
             [&mut self.right, &mut self.left]
         }
     }
 
-    /// Whether line `line` is the first one below the middle corner, or below the last.
+    /// Number of triangles.
+    pub(crate) const fn count(&self) -> u16 {
+        1 + self.is_pair as u16
+    }
+
+    /// Whether line `line` is the first one below a corner.
     #[inline(always)]
     pub(crate) const fn turns(&self, line: u32) -> bool {
         line == self.turn as u32
@@ -124,30 +155,41 @@ impl Active {
         line == self.end as u32
     }
 
-    /// Whether line `line` is the first one below the middle corner.
-    pub(crate) fn turned_on<const LIGHTS: usize>(&self, line: u16, vertices: &[Vertex<LIGHTS>]) -> bool {
-        let [middle, _] = self.lower;
-        vertices.get(usize::from(middle)).is_some_and(|middle| first_at(middle.point().y) == i32::from(line))
-    }
-
-    /// Turns to the lower edge before the step to line `line`, the first one below the middle corner.
+    /// Turns to other edges on line `line`, the first one below a corner that is not the last.
     #[inline(never)]
     pub(crate) fn bend<const LIGHTS: usize>(&mut self, line: u32, vertices: &[Vertex<LIGHTS>]) {
-        let [middle, bottom] = self.lower;
-        let Some(middle) = vertices.get(usize::from(middle)) else { return };
-        let Some(bottom) = vertices.get(usize::from(bottom)) else { return };
-        self.turn = self.end;
-        let [bent, _] = self.edges();
-        bent.set(middle, bottom, line as i32);
-        bent.step_back();
+        let line = line as i32;
+        let vertex = |number: u16| vertices.get(usize::from(number));
+        for _ in 0..2 {
+            let ([a, b, c], course) = (self.lower, self.course);
+            let (Some(here), Some(next)) = (vertex(a), vertex(b)) else { return };
+            (self.lower, self.course) = ([b, c, c], course.next());
+            let turn = next.pixel().y;
+            self.turn = turn as u16;
+            let below = if course.goes_on() { Some(next) } else { vertex(c) };
+            if let Some(below) = below {
+                let [edge, _] = self.edges(course.is(Course::LEFT));
+                edge.join(here, below, line);
+            }
+            if course.is(Course::BEGINS) {
+                if let Some(below) = if course.is(Course::ENDS_AFTER) { Some(next) } else { vertex(c) } {
+                    self.diagonal.join(here, below, line);
+                }
+            } else if course.is(Course::ENDS) {
+                self.diagonal = Edge::beyond(!course.is(Course::LEFT));
+            }
+            if turn > line {
+                break;
+            }
+        }
     }
 
-    /// On to the next line, with what it covers there.
+    /// On to the next line.
     #[inline(always)]
-    pub(crate) fn step(&mut self, span: &mut Span) {
+    pub(crate) fn step(&mut self) {
+        self.diagonal.step();
         self.left.step();
         self.right.step();
-        *span = span.with(self.left.x().into(), self.right.x().into());
     }
 
     /// The first pixel that it covers on the line, and the first one after; no pixels if the latter is not larger.
@@ -156,9 +198,25 @@ impl Active {
         (self.left.x(), self.right.x())
     }
 
-    /// Its left and its right edge.
+    /// The first pixel of the line right of the diagonal.
+    #[inline(always)]
+    pub(crate) const fn middle(&self) -> i16 {
+        self.diagonal.x()
+    }
+
+    /// The left and the right edge.
     pub(crate) const fn sides(&self) -> [&Edge; 2] {
         [&self.left, &self.right]
+    }
+
+    /// The left and the right edge of one of the triangles; of a pair, if the other one covers no pixel of the line.
+    pub(crate) fn sides_of(&self, half: usize) -> [&Edge; 2] {
+        let (start, end) = self.extent();
+        match half {
+            0 if self.middle() < end => [&self.left, &self.diagonal],
+            1 if self.middle() > start => [&self.diagonal, &self.right],
+            _ => self.sides(),
+        }
     }
 
     /// The least and the largest nearness of all of it.
@@ -166,6 +224,10 @@ impl Active {
     pub(crate) fn reach(&self) -> [i32; 2] {
         [self.far.into(), self.near.into()]
     }
+}
+
+impl Half {
+    const NONE: Self = Self { depth: [0; 3], id: TriangleId(0), facet: 0, deep: false };
 
     /// Makes `depth` ready. Returns 1 if that took 64-bit divisions, else 0.
     #[cold]
@@ -175,8 +237,9 @@ impl Active {
         let points = corners.map(Vertex::point);
         let [p0, ..] = points;
         let [x, y] = Gradient::anchor(p0).map(i32::from);
-        let [far, near] = self.reach();
-        let ([at, dx, dy], exact) = plane(points, corners.map(|corner| corner.nearness() as i32), near - far);
+        let nearness @ [a, b, c] = corners.map(|corner| corner.nearness() as i32);
+        let reach = ((a.max(b).max(c) + 0xff) >> 8) - (a.min(b).min(c) >> 8);
+        let ([at, dx, dy], exact) = plane(points, nearness, reach);
         self.depth = [at.wrapping_sub(dx.wrapping_mul(x)).wrapping_sub(dy.wrapping_mul(y)), dx, dy];
         self.deep = true;
         exact
@@ -236,20 +299,44 @@ fn exact_plane([p0, p1, p2]: [Point; 3], [w0, w1, w2]: [i32; 3]) -> [i32; 3] {
     [(w0 << FINER).wrapping_add(at), x, y]
 }
 
-/// The corners, with their numbers, from top to bottom; those of equal height in their order.
-#[inline]
-fn by_height<const LIGHTS: usize>([mut a, mut b, mut c]: [(u16, &Vertex<LIGHTS>); 3]) -> [(u16, &Vertex<LIGHTS>); 3] {
-    let height = |(_, vertex): (u16, &Vertex<LIGHTS>)| vertex.point().y;
-    if height(b) < height(a) {
-        core::mem::swap(&mut a, &mut b);
+/// Of four, that at a place.
+#[inline(always)]
+fn pick<T: Copy>(four: &[T; 4], place: u32) -> T {
+    let [first, ..] = four;
+    *four.get((place & 3) as usize).unwrap_or(first)
+}
+
+/// The places of corners from top to bottom; those of equal height in their order. Of a triangle, the last place is there twice.
+#[inline(always)]
+fn by_height<const LIGHTS: usize>([a, b, c, d]: [&Vertex<LIGHTS>; 4], is_pair: bool) -> [u32; 4] {
+    let [a, b, c, d] = [key(a, 0), key(b, 1), key(c, 2), key(d, 3)];
+    let [a, b] = ordered(a, b);
+    let mut order;
+    if is_pair {
+        let [c, d] = ordered(c, d);
+        let ([a, c], [b, d]) = (ordered(a, c), ordered(b, d));
+        let [b, c] = ordered(b, c);
+        order = [a, b, c, d];
+    } else {
+        let [b, c] = ordered(b, c);
+        let [a, b] = ordered(a, b);
+        order = [a, b, c, c];
     }
-    if height(c) < height(b) {
-        core::mem::swap(&mut b, &mut c);
-        if height(b) < height(a) {
-            core::mem::swap(&mut a, &mut b);
-        }
+    for key in &mut order {
+        *key &= 3;
     }
-    [a, b, c]
+    order.map(|place| place as u32)
+}
+
+/// A corner's height, and its place.
+#[inline(always)]
+fn key<const LIGHTS: usize>(corner: &Vertex<LIGHTS>, place: i32) -> i32 {
+    (corner.point().y << 2) | place
+}
+
+#[inline(always)]
+fn ordered(a: i32, b: i32) -> [i32; 2] {
+    [a.min(b), a.max(b)]
 }
 
 #[cfg(test)]

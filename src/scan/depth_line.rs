@@ -94,28 +94,35 @@ impl<const WIDTH: usize> DepthLine<WIDTH> {
             if !extent.starts_before(end) {
                 break;
             }
-            let start = extent.start().max(from);
-            let range = (start - from) as usize..(extent.end().min(end) - from).max(0) as usize;
-            let Some(depths) = self.depths.get_mut(range.clone()).filter(|depths| !depths.is_empty()) else { continue };
-            let Some(owners) = self.owners.get_mut(range.clone()) else { continue };
             let Some(active) = slots.get_mut(usize::from(extent.slot())) else { continue };
-            if !active.deep {
-                active.deepen(geometry);
-            }
-            let (id, step) = (active.id, active.depth_step() as u32);
-            let mut depth = (active.depth_at(start, line) as u32).wrapping_add(1 << 31);
-            let wins_against = |owner: u16| {
-                let extent = extents.get(usize::from(owner).wrapping_sub(1));
-                let seen = extent.and_then(|extent| slots.get(usize::from(extent.slot())));
-                seen.is_none_or(|seen| wins(id, seen.id, geometry))
-            };
-            for (nearest, seen) in depths.iter_mut().zip(owners) {
-                if depth >= *nearest && (depth > *nearest || wins_against(*seen)) {
-                    (*nearest, *seen) = (depth, owner);
+            for (half, span) in [0, 1].into_iter().zip(extent.halves(active.middle().into())) {
+                let start = span.start().max(from);
+                let range = (start - from).max(0) as usize..(span.end().min(end) - from).max(0) as usize;
+                let Some(depths) = self.depths.get_mut(range.clone()).filter(|depths| !depths.is_empty()) else { continue };
+                let Some(owners) = self.owners.get_mut(range.clone()) else { continue };
+                let Some(active) = slots.get_mut(usize::from(extent.slot())).and_then(|active| active.halves.get_mut(half))
+                else {
+                    continue;
+                };
+                if !active.deep {
+                    active.deepen(geometry);
                 }
-                depth = depth.wrapping_add(step);
+                let (id, step) = (active.id, active.depth_step() as u32);
+                let mut depth = (active.depth_at(start, line) as u32).wrapping_add(1 << 31);
+                let wins_against = |owner: u16, x: i32| {
+                    let extent = extents.get(usize::from(owner).wrapping_sub(1));
+                    let seen = extent.and_then(|extent| slots.get(usize::from(extent.slot())));
+                    let seen = seen.and_then(|active| active.halves.get(usize::from(i32::from(active.middle()) <= x)));
+                    seen.is_none_or(|seen| wins(id, seen.id, geometry))
+                };
+                for ((nearest, seen), x) in depths.iter_mut().zip(owners).zip(start..) {
+                    if depth >= *nearest && (depth > *nearest || wins_against(*seen, x)) {
+                        (*nearest, *seen) = (depth, owner);
+                    }
+                    depth = depth.wrapping_add(step);
+                }
+                used = used.max(range.end);
             }
-            used = used.max(range.end);
         }
         used
     }

@@ -21,6 +21,10 @@ pub struct Edge {
 impl Edge {
     /// An empty edge at pixel 0.
     pub const NONE: Self = Self { at: 0, step: 0 };
+    /// A vertical edge that no pixel lies right of.
+    pub(crate) const RIGHTMOST: Self = Self { at: i64::MAX, step: 0 };
+    /// A vertical edge that all pixels lie right of.
+    pub(crate) const LEFTMOST: Self = Self { at: i64::MIN, step: 0 };
 
     /// Becomes the edge from `top` down to `bottom`, on line `line`, which must not begin above `top`.
     #[inline(never)]
@@ -37,6 +41,14 @@ impl Edge {
         let part = high * down + ((low * down) >> 16);
         self.at = ((i64::from(x) << 40) + (i64::from(part) << 24)).wrapping_sub(1);
         self.step = (i64::from((whole << 16) + high as i32) << 32) + (i64::from(low) << 16);
+    }
+
+    /// The same, if it crosses the line; if it ends above, it stays what it is.
+    #[inline(always)]
+    pub(crate) fn join<const LIGHTS: usize>(&mut self, top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) {
+        if line < bottom.pixel().y {
+            self.set(top, bottom, line);
+        }
     }
 
     /// The same for edges of 128 pixels and more, in 64 bits.
@@ -57,6 +69,15 @@ impl Edge {
     pub(crate) fn is_long<const LIGHTS: usize>(top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) -> bool {
         let (top, bottom) = (top.point(), bottom.point());
         is_long(bottom.x - top.x, bottom.y - top.y, center(line) - top.y)
+    }
+
+    /// An edge that all pixels lie left of, or all right.
+    pub(crate) const fn beyond(is_rightmost: bool) -> Self {
+        if is_rightmost {
+            Self::RIGHTMOST
+        } else {
+            Self::LEFTMOST
+        }
     }
 
     /// The first pixel whose centre lies on or right of the edge.

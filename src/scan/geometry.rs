@@ -157,6 +157,13 @@ pub(crate) struct Numbers<'f> {
 }
 
 impl Numbers<'_> {
+    /// The last corner of the next triangle of the mesh, among the frame's vertices.
+    #[inline]
+    pub(crate) fn fourth(&self) -> Option<u16> {
+        let [_, _, corner] = *self.object.mesh.data().triangles.get(usize::from(self.triangle) + 1)?;
+        Some(corner.wrapping_add(self.object.first_vertex))
+    }
+
     /// The number of its material among those of all objects.
     #[inline]
     pub(crate) fn look(&self) -> u16 {

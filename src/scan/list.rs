@@ -4,7 +4,13 @@ use core::cell::Cell;
 
 use heapless::Vec;
 
-use super::{active::Active, bucket::TriangleId, geometry::Geometry, table::Span, vertex::Vertex};
+use super::{
+    active::Active,
+    bucket::{Kept, TriangleId},
+    geometry::Geometry,
+    table::Span,
+    vertex::Vertex,
+};
 use crate::work::{Tally, Work};
 
 /// Triangles put in their places at once.
@@ -76,18 +82,21 @@ impl<const N: usize> ActiveList<N> {
     fn step<const L: usize>(&mut self, line: u32, vertices: &[Vertex<L>]) {
         for span in &mut self.order {
             let Some(active) = self.slots.get_mut(usize::from(span.slot())) else { break };
-            if active.turns(line) {
-                if active.ends(line) {
-                    self.tally.add(Work { ended: 1, ..Work::NONE });
-                    active.next = self.free;
-                    self.free = span.slot();
-                    *span = Span::NONE;
-                    continue;
-                }
+            let turns = active.turns(line);
+            if turns && active.ends(line) {
+                self.tally.add(Work { ended: 1, ..Work::NONE });
+                active.next = self.free;
+                self.free = span.slot();
+                *span = Span::NONE;
+                continue;
+            }
+            active.step();
+            if turns {
                 self.tally.add(Work { turned: 1, ..Work::NONE });
                 active.bend(line, vertices);
             }
-            active.step(span);
+            let (start, end) = active.extent();
+            *span = span.with(start.into(), end.into());
         }
     }
 
@@ -114,22 +123,24 @@ impl<const N: usize> ActiveList<N> {
     pub(crate) fn enter<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, '_, L>) -> u16 {
         let mut dropped = 0;
         let mut new = Vec::new();
-        for id in geometry.starting(line) {
+        for kept in geometry.starting(line) {
             self.tally.add(Work { entered: 1, ..Work::NONE });
             if new.is_full() {
                 self.merge(&mut new);
             }
             if self.slots.get(usize::from(self.free)).is_none() {
                 self.merge(&mut new);
-                dropped += 1;
-                match self.farther_than(id, geometry) {
-                    Some(place) => self.remove(place),
-                    None => continue,
+                match self.farther_than(kept, geometry) {
+                    Some(place) => dropped += self.remove(place),
+                    None => {
+                        dropped += kept.count() as u16;
+                        continue;
+                    }
                 }
             }
             let slot = self.free;
             let Some(active) = self.slots.get_mut(usize::from(slot)) else { continue };
-            if let Some(look) = active.begin(id, line, geometry) {
+            if let Some(look) = active.begin(kept, line, geometry) {
                 self.free = active.next;
                 let (start, end) = active.extent();
                 let span = Span::new(start, end, slot, look);
@@ -160,31 +171,33 @@ impl<const N: usize> ActiveList<N> {
         new.clear();
     }
 
-    /// Takes a triangle out.
-    fn remove(&mut self, place: usize) {
-        if place < self.order.len() {
-            let slot = self.order.remove(place).slot();
-            if let Some(active) = self.slots.get_mut(usize::from(slot)) {
-                active.next = self.free;
-                self.free = slot;
-            }
+    /// Takes out what is at that place. Returns its number of triangles.
+    fn remove(&mut self, place: usize) -> u16 {
+        if place >= self.order.len() {
+            return 0;
         }
+        let slot = self.order.remove(place).slot();
+        let Some(active) = self.slots.get_mut(usize::from(slot)) else { return 0 };
+        active.next = self.free;
+        self.free = slot;
+        active.count()
     }
 
     /// Of all in the list and this one, the place of that whose nearest corner is farthest, of equals that with the highest
     /// number; none if it is this one. What is left out thus depends on the picture alone.
     #[cold]
     #[inline(never)]
-    fn farther_than<const L: usize>(&self, id: TriangleId, geometry: &Geometry<'_, '_, L>) -> Option<usize> {
-        let rank = |id: TriangleId| {
-            let nearest = geometry.corners(id).and_then(|corners| corners.iter().map(|corner| corner.nearness()).max());
-            (nearest.unwrap_or(0), core::cmp::Reverse(id))
+    fn farther_than<const L: usize>(&self, kept: Kept, geometry: &Geometry<'_, '_, L>) -> Option<usize> {
+        let rank = |ids: [TriangleId; 2]| {
+            let corners = ids.into_iter().filter_map(|id| geometry.corners(id)).flatten();
+            let [one, other] = ids;
+            (corners.map(Vertex::nearness).max().unwrap_or(0), core::cmp::Reverse(one.min(other)))
         };
-        let mut least = rank(id);
+        let mut least = rank(kept.ends());
         let mut victim = None;
         for (place, span) in self.order.iter().enumerate() {
             let Some(active) = self.get(span.slot()) else { continue };
-            let other = rank(active.id);
+            let other = rank(active.halves.each_ref().map(|half| half.id));
             if other < least {
                 (least, victim) = (other, Some(place));
             }

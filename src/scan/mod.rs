@@ -3,6 +3,7 @@
 pub mod active;
 pub mod bucket;
 pub mod columns;
+pub(crate) mod course;
 pub mod depth_line;
 pub mod edge;
 pub mod geometry;

@@ -2,7 +2,15 @@
 
 use core::ops::Range;
 
-use super::{active::Active, bucket::TriangleId, list::BATCH, picture::Picture};
+use super::{
+    active::Active,
+    bucket::{Kept, TriangleId},
+    edge::Edge,
+    list::BATCH,
+    picture::Picture,
+    table::SPANS,
+    vertex::Vertex,
+};
 use crate::{model::light::LightSource, price::Price, work::Work};
 
 impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
@@ -28,26 +36,23 @@ impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
         let (above, here) = (cover(y.checked_sub(1)), cover(Some(y)));
 
         let mut known = Known::default();
-        for mut crossing in self.crossing(y) {
-            let (starts, turns) = (crossing.starts == y, crossing.turns == y);
+        for Crossing { kept, mut active, starts } in self.crossing(y) {
+            let starts = starts == y;
             known.work.entered += u32::from(starts);
             known.work.stepped += u32::from(!starts);
-            known.work.turned += u32::from(!starts && turns);
-            if starts || turns {
-                let corners = geometry.corners(crossing.active.id);
-                known.work.long += corners.map_or(0, |corners| Active::long(corners, y, !starts));
+            let outline = self.outline(kept.ends());
+            known.work.turned += u32::from(!starts && outline.turns(y));
+            known.work.long += outline.long(y);
+            if known.add(&active, &here, width) {
+                known.work.exact += active.halves.iter_mut().take(kept.count()).map(|half| half.deepen(geometry)).sum::<u32>();
             }
-            let covering = known.add(&crossing.active, &here, width);
-            if covering.overlaps {
-                known.work.exact += crossing.active.deepen(geometry);
-            }
-            if covering.is_there {
-                let before = if starts { None } else { self.crossing_of(crossing.active.id, y - 1) };
-                let before = before.map(|crossing| crossing.active.columns(width));
-                let was_seen = before.is_some_and(|columns| !columns.is_empty() && above.is_single(columns));
-                if !was_seen {
+            let before = y.checked_sub(1).and_then(|above| self.crossing_of(kept, above));
+            let before = before.map_or([0..0, 0..0], |before| before.active.columns_of(width));
+            for ((half, columns), before) in active.halves.iter().zip(active.columns_of(width)).zip(before) {
+                let was_seen = !before.is_empty() && above.is_single(before);
+                if !columns.is_empty() && !was_seen {
                     known.work.facets += 1;
-                    known.work.asked += u32::from(crossing.ends - crossing.starts);
+                    known.work.asked += self.lines(half.id).map_or(0, |[start, _, end]| u32::from(end - start));
                 }
             }
         }
@@ -68,18 +73,32 @@ impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
 
     /// The triangles that cross a line.
     fn crossing(&self, y: u16) -> impl Iterator<Item = Crossing> + '_ {
-        self.geometry.kept.iter().filter_map(move |kept| self.crossing_of(kept.triangle, y))
+        self.geometry.kept.iter().filter_map(move |kept| self.crossing_of(*kept, y))
     }
 
-    /// A triangle on a line; none if it does not cross it.
-    fn crossing_of(&self, id: TriangleId, y: u16) -> Option<Crossing> {
-        let [starts, turns, ends] = self.lines(id)?;
+    /// What was kept, on a line; none if it does not cross it.
+    fn crossing_of(&self, kept: Kept, y: u16) -> Option<Crossing> {
+        let [starts, ends] = self.lines_of(kept)?;
         if !(starts..ends).contains(&y) {
             return None;
         }
         let mut active = Active::NONE;
-        active.begin(id, y, &self.geometry)?;
-        Some(Crossing { active, starts, turns, ends })
+        active.begin(kept, y, &self.geometry)?;
+        Some(Crossing { kept, active, starts })
+    }
+
+    /// The outline of a triangle, or of two that are a pair.
+    pub(crate) fn outline(&self, [one, other]: [TriangleId; 2]) -> Outline<'_, LIGHTS> {
+        let corners = |id| self.geometry.corners(id).unwrap_or([&Vertex::NONE; 3]);
+        let ([a, b, c], [_, _, d]) = (corners(one.min(other)), corners(one.max(other)));
+        Outline([a, b, c, d])
+    }
+
+    /// The first line of what was kept, and the first one below it.
+    fn lines_of(&self, kept: Kept) -> Option<[u16; 2]> {
+        let mut lines = kept.triangles().filter_map(|id| self.lines(id)).map(|[start, _, end]| [start, end]);
+        let first = lines.next()?;
+        Some(lines.fold(first, |[start, end], [other_start, other_end]| [start.min(other_start), end.max(other_end)]))
     }
 
     /// The first lines of a triangle below its corners, from top to bottom; those above the picture count as its first.
@@ -98,58 +117,85 @@ impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
 
     /// Triangles that cross the line above, and end there.
     fn ending(&self, y: u16) -> u32 {
-        let ends = |id| self.lines(id).is_some_and(|[starts, _, ends]| starts < y && ends == y);
-        self.geometry.kept.iter().filter(|kept| ends(kept.triangle)).count() as u32
+        let ends = |kept| self.lines_of(kept).is_some_and(|[starts, ends]| starts < y && ends == y);
+        self.geometry.kept.iter().filter(|kept| ends(**kept)).count() as u32
+    }
+}
+
+/// The corners of a triangle, or of a pair, in the order of the mesh; of a triangle, the last one twice.
+pub(crate) struct Outline<'f, const LIGHTS: usize>([&'f Vertex<LIGHTS>; 4]);
+
+impl<const LIGHTS: usize> Outline<'_, LIGHTS> {
+    /// Whether the line is the first one below a corner that is neither the first nor the last.
+    pub(crate) fn turns(&self, line: u16) -> bool {
+        let rows = self.0.map(|corner| corner.pixel().y);
+        let line = i32::from(line);
+        line > 0 && rows.iter().any(|row| *row < line) && rows.contains(&line) && rows.iter().any(|row| *row > line)
+    }
+
+    /// Edges, and diagonals, for which [`Edge::set`] takes 64 bits, of those that begin on the line.
+    pub(crate) fn long(&self, line: u16) -> u32 {
+        let [a, b, c, d] = self.0;
+        let line = i32::from(line);
+        let is_long = |(one, other): &(&Vertex<LIGHTS>, &Vertex<LIGHTS>)| {
+            let (top, bottom) = if one.point().y <= other.point().y { (one, other) } else { (other, one) };
+            top.pixel().y.max(0) == line && line < bottom.pixel().y && Edge::is_long(top, bottom, line)
+        };
+        [(a, b), (b, c), (c, d), (d, a), (c, a)].iter().filter(|edge| is_long(edge)).count() as u32
     }
 }
 
 /// A triangle on a line that it crosses.
 struct Crossing {
+    kept: Kept,
     active: Active,
-    /// The first line, and the first one below the middle corner.
+    /// The first line.
     starts: u16,
-    turns: u16,
-    /// The first one below the last corner.
-    ends: u16,
 }
 
 impl Active {
     /// The pixels that it covers in a picture of that width.
     pub(crate) fn columns(&self, width: u16) -> Range<u16> {
         let (start, end) = self.extent();
-        let [start, end] = [start, end].map(|x| (x.max(0) as u16).min(width));
-        start..end
+        between(start, end, width)
     }
+
+    /// The same for its left triangle and its right one.
+    pub(crate) fn columns_of(&self, width: u16) -> [Range<u16>; 2] {
+        let (start, end) = self.extent();
+        let middle = self.middle().max(start).min(end);
+        [between(start, middle, width), between(middle, end, width)]
+    }
+}
+
+/// The pixels from there to there in a picture of that width.
+fn between(start: i16, end: i16, width: u16) -> Range<u16> {
+    let [start, end] = [start, end].map(|x| (x.max(0) as u16).min(width));
+    start..end
 }
 
 /// What is known of a line before it is resolved: counts, of which some follow from others in the end.
 #[derive(Default)]
 pub(crate) struct Known {
     pub(crate) work: Work,
-    /// Triangles that cover pixels; that begin or end outside of the picture; that overlap others.
+    /// Triangles that cover pixels; triangles and pairs that begin or end outside of the picture; that overlap others.
     seen: u32,
     outside: u32,
     overlapping: u32,
 }
 
-/// How a triangle covers a line: whether it covers pixels, and some that another one covers too.
-pub(crate) struct Covering {
-    pub(crate) is_there: bool,
-    pub(crate) overlaps: bool,
-}
-
 impl Known {
-    /// A triangle that crosses the line.
-    pub(crate) fn add(&mut self, active: &Active, here: &Cover, width: u16) -> Covering {
+    /// What crosses the line. Returns whether it covers pixels that something else covers too.
+    pub(crate) fn add(&mut self, active: &Active, here: &Cover, width: u16) -> bool {
         self.work.active += 1;
         let (start, end) = active.extent();
         self.outside += u32::from(start < end && (start < 0 || end > width as i16));
         let columns = active.columns(width);
-        let is_there = !columns.is_empty();
-        let overlaps = is_there && !here.is_single(columns);
-        self.seen += u32::from(is_there);
+        let overlaps = !columns.is_empty() && !here.is_single(columns);
+        self.seen += active.columns_of(width).iter().filter(|columns| !columns.is_empty()).count() as u32;
         self.overlapping += u32::from(overlaps);
-        Covering { is_there, overlaps }
+        self.work.deepened += u32::from(overlaps) * u32::from(active.count());
+        overlaps
     }
 
     /// All that follows, where so many triangles ended on the line above.
@@ -162,7 +208,6 @@ impl Known {
         let Self { mut work, seen, outside, overlapping } = self;
         let (geometry, width) = (&picture.geometry, picture.geometry.width() as u16);
         (work.walked, work.lines, work.gradients) = (1, 1, picture.background.is_gradient().into());
-        work.deepened = overlapping;
         // Each of those that stay may pass all others; those that start come some at a time, and each may pass the rest of these.
         let (stay, enter, batch) = (work.stepped, work.entered, BATCH as u32);
         let batches = enter.div_ceil(batch).saturating_mul(work.active);
@@ -180,10 +225,11 @@ impl Known {
         (work.runs, work.started) = (work.spans, work.spans);
         if overlapping + outside > 0 {
             // Times that the table is full.
-            let full = work.spans.checked_div(work.active).unwrap_or(0);
-            // Two cross each other once at most, and each that begins overlaps with all but one of those that cover its first pixel.
+            let full = work.spans / SPANS as u32;
+            // Two cross each other three times at most, as each may be two planes, and each that begins overlaps with all but one of
+            // those that cover its first pixel.
             let deep = if here.is_deep() { overlapping } else { overlapping.min(2) };
-            let crossings = shared.min(overlapping.saturating_mul(deep.saturating_sub(1)));
+            let crossings = shared.min(3 * overlapping.saturating_mul(deep.saturating_sub(1)));
             // One is in front until it ends, another one begins, or it is crossed.
             work.fronts = 3 * (overlapping + outside) + crossings + 2 * full + 2;
             let elected = (overlap + full.saturating_mul(overlapping)).min(work.fronts.saturating_mul(deep));

@@ -3,7 +3,6 @@
 use embedded_graphics::primitives::Rectangle;
 
 use super::{
-    active::Active,
     bucket::TriangleId,
     geometry::{Geometry, Source},
     triangle::Triangle,
@@ -73,11 +72,10 @@ impl Steps<'_> {
     /// Nothing is degraded.
     pub(crate) const NONE: Self = Self { steps: &[], middle: 0 };
 
-    /// The rung of a triangle: that of the line that is farthest down the ladder, of all that it crosses, so that it is set up once
+    /// The rung of a triangle whose nearest corner, or that of the pair that it is kept in, is so near, the upper 16 bits: that of the line that is farthest down the ladder, of all that it crosses, so that it is set up once
     /// and the same in whatever order lines are drawn.
-    pub(crate) fn rung(&self, lines: &[u8], active: &Active) -> u8 {
+    pub(crate) fn rung(&self, lines: &[u8], near: i32) -> u8 {
         let step = lines.iter().fold(0, |most, step| most.max(*step));
-        let [_, near] = active.reach();
         (step + u8::from(near <= i32::from(self.middle))) >> 1
     }
 }
@@ -91,15 +89,19 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
 
     /// Number of triangles that face the eye and touch the picture.
     #[must_use]
-    pub const fn triangles(&self) -> usize {
-        self.geometry.kept.len()
+    pub fn triangles(&self) -> usize {
+        self.geometry.kept.iter().map(|kept| kept.count()).sum()
     }
 
     /// Those triangles with their corners, in the order of their first addition to the frame; of one that was clipped or split, its
     /// parts.
     pub fn outlines(&self) -> impl Iterator<Item = (Source, [&'f Vertex<LIGHTS>; 3])> {
         let geometry = self.geometry;
-        geometry.kept.iter().filter_map(move |kept| Some((geometry.source(kept.triangle)?, geometry.corners(kept.triangle)?)))
+        geometry
+            .kept
+            .iter()
+            .flat_map(|kept| kept.triangles())
+            .filter_map(move |id| Some((geometry.source(id)?, geometry.corners(id)?)))
     }
 
     /// A triangle, fetched.

@@ -1,5 +1,7 @@
 //! Visibility: the spanning scan-line algorithm.
 
+use core::ops::Range;
+
 use heapless::Vec;
 
 use super::{
@@ -90,31 +92,28 @@ impl<const N: usize> Sweep<N> {
     /// the picture, which is open then. A loop of its own, as short as can be: most triangles come this way.
     #[inline(never)]
     fn alone<'a>(&mut self, extents: &'a [Span]) -> &'a [Span] {
-        let rest = extents.get(self.next..).unwrap_or_default();
-        let mut until = self.x;
-        let mut after = rest.iter();
-        let mut place = None;
-        while let Some(extent) = after.next() {
+        let first = self.next;
+        let (mut until, mut next) = (self.x, first);
+        let overlaps = loop {
+            let Some(extent) = extents.get(next) else { break false };
             if !extent.starts_before(until) {
                 until = extent.end();
             } else if !extent.is_empty() {
-                place = Some(rest.len() - after.len() - 1);
-                break;
+                break true;
             }
-        }
-        let mut run = rest.get(..place.unwrap_or(rest.len())).unwrap_or_default();
-        if until > self.width {
-            place = run.iter().position(|extent| extent.end() > self.width);
-        } else if place.is_some() {
-            place = run.iter().rposition(|extent| !extent.is_empty()).or(place);
-        }
-        if let Some(place) = place {
-            run = run.get(..place).unwrap_or(run);
-            self.x = rest.get(place).map_or(self.width, |extent| extent.start().max(0));
-            self.wait(self.next + place);
-            self.next += place + 1;
-        }
-        run
+            next += 1;
+        };
+        let run = extents.get(first..next).unwrap_or_default();
+        let place = match () {
+            () if until > self.width => run.iter().position(|extent| extent.end() > self.width),
+            () if overlaps => run.iter().rposition(|extent| !extent.is_empty()).or(Some(run.len())),
+            () => return run,
+        };
+        let Some(place) = place else { return run };
+        self.x = extents.get(first + place).map_or(self.width, |extent| extent.start().max(0));
+        self.wait(first + place);
+        self.next = first + place + 1;
+        run.get(..place).unwrap_or(run)
     }
 
     /// Where some are open: sees one triangle after the other, until none is open, or the table is full.
@@ -133,7 +132,8 @@ impl<const N: usize> Sweep<N> {
             self.tally.add(Work { fronts: 1, ..Work::NONE });
             let mut until = width;
             let mut place = next;
-            if Open::new(next, extents, slots).is_some_and(|other| other.start <= x && other.end > x && other.far > bound) {
+            let is_nearer = |other: Open| other.start <= x && other.end > x && other.far > bound;
+            if bound < i32::MAX && Open::new(next, extents, slots).is_some_and(is_nearer) {
                 next += 1;
             } else {
                 bound = 0;
@@ -271,19 +271,54 @@ impl<const N: usize> Sweep<N> {
     ) -> (bool, i32) {
         const NEVER: (bool, i32) = (false, i32::MAX);
         let (Some(other), Some(front)) = (extents.get(other), extents.get(front)) else { return NEVER };
-        let last = other.end().min(front.end()).min(self.width) - 1;
-        let pair = [other.slot(), front.slot()];
+        let end = other.end().min(front.end()).min(self.width);
+        let pair = [other.slot(), front.slot()].map(usize::from);
         self.tally.add(Work { compared: 1, ..Work::NONE });
-        for slot in pair {
-            match slots.get_mut(usize::from(slot)) {
-                Some(active) if !active.deep => {
-                    let exact = active.deepen(geometry);
+        let (mut from, mut known) = (x, None);
+        // Each of them is one plane left of its diagonal, and another one right of it.
+        for _ in 0..3 {
+            let [Some(other), Some(front)] = pair.map(|slot| slots.get(slot)) else { return NEVER };
+            let middles = [other, front].map(|active| i32::from(active.middle()));
+            let until = middles.iter().fold(end, |until, middle| if *middle > from { until.min(*middle) } else { until });
+            let [left, right] = middles.map(|middle| usize::from(middle <= from));
+            let (ahead, crossing) = self.compare(pair, [left, right], from..until, slots, geometry);
+            let known = *known.get_or_insert(ahead);
+            if ahead != known {
+                return (known, from);
+            }
+            if crossing < i32::MAX || until >= end {
+                return (known, crossing);
+            }
+            from = until;
+        }
+        NEVER
+    }
+
+    /// The same for these halves of them, between two pixels, of which there is at least one.
+    #[inline(always)]
+    fn compare<const L: usize>(
+        &mut self,
+        slots_of: [usize; 2],
+        halves: [usize; 2],
+        pixels: Range<i32>,
+        slots: &mut [Active; N],
+        geometry: &Geometry<'_, '_, L>,
+    ) -> (bool, i32) {
+        const NEVER: (bool, i32) = (false, i32::MAX);
+        let pair = [0, 1].map(|i| (slots_of[i], halves[i]));
+        for (slot, half) in pair {
+            match slots.get_mut(slot).and_then(|active| active.halves.get_mut(half)) {
+                Some(half) if !half.deep => {
+                    let exact = half.deepen(geometry);
                     self.tally.add(Work { deepened: 1, exact, ..Work::NONE });
                 }
                 _ => {}
             }
         }
-        let [Some(other), Some(front)] = pair.map(|slot| slots.get(usize::from(slot))) else { return NEVER };
+        let of = |(slot, half): (usize, usize)| slots.get(slot).and_then(|active| active.halves.get(half));
+        let [Some(other), Some(front)] = pair.map(of) else { return NEVER };
+        let Range { start: x, end } = pixels;
+        let last = end - 1;
         let wins = || wins(other.id, front.id, geometry);
         let is_ahead = |lead: i32| lead > 0 || lead == 0 && wins();
         let lead = other.depth_at(x, self.line).wrapping_sub(front.depth_at(x, self.line));

@@ -1,6 +1,6 @@
 //! How an edge cuts the pixels of a line.
 
-use super::{active::Active, edge::Edge};
+use super::{active::Half, edge::Edge};
 use crate::math::{
     reciprocal::Reciprocal,
     screen::{center, SUBPIXELS},
@@ -44,7 +44,7 @@ impl Silhouette {
     /// Where two surfaces cut each other between a pixel, where the left one is in front, and the next one; none if they do not.
     ///
     /// Their depths are planes, so that they cut along a straight line: where the lead of the left one ends.
-    pub(crate) fn crossing([left, right]: [&Active; 2], pixel: i32, line: u16) -> Option<Self> {
+    pub(crate) fn crossing([left, right]: [&Half; 2], pixel: i32, line: u16) -> Option<Self> {
         let ([left_x, left_y], [right_x, right_y]) = (left.depth_steps(), right.depth_steps());
         let (x, y) = (left_x.wrapping_sub(right_x), left_y.wrapping_sub(right_y));
         let lead = left.depth_at(pixel, line).wrapping_sub(right.depth_at(pixel, line));

@@ -7,7 +7,7 @@ use core::ops::Range;
 pub struct Span {
     /// The first pixel in the upper half, the first one after it in the lower.
     pixels: i32,
-    /// The number of its material in the upper half, the slot of its triangle in the lower.
+    /// The number of its material in the upper half, that of its triangle among those of all slots, two in each, in the lower.
     source: u32,
 }
 
@@ -20,13 +20,27 @@ impl Span {
 
     #[inline(always)]
     pub(crate) const fn new(start: i16, end: i16, slot: u16, look: u16) -> Self {
-        Self { pixels: (start as i32) << 16 | end as u16 as i32, source: (look as u32) << 16 | slot as u32 }
+        Self { pixels: (start as i32) << 16 | end as u16 as i32, source: (look as u32) << 16 | (slot as u32) << 1 }
     }
 
     /// The same triangle's span from there to there.
     #[inline(always)]
     pub(crate) const fn with(self, start: i32, end: i32) -> Self {
         Self { pixels: start << 16 | end as u16 as i32, ..self }
+    }
+
+    /// The same of the right triangle.
+    #[inline(always)]
+    pub(crate) const fn right(self) -> Self {
+        Self { source: self.source | 1, ..self }
+    }
+
+    /// What shows the left triangle, and the right one; either may be empty.
+    #[inline(always)]
+    pub(crate) fn halves(self, middle: i32) -> [Self; 2] {
+        let (start, end) = (self.start(), self.end());
+        let middle = middle.max(start).min(end);
+        [self.with(start, middle), self.with(middle, end).right()]
     }
 
     /// The first pixel.
@@ -50,10 +64,16 @@ impl Span {
         self.start() as u16 as usize..self.end() as u16 as usize
     }
 
-    /// The slot of the triangle among those that cross the line.
+    /// The slot among those that cross the line.
     #[inline(always)]
     pub(crate) const fn slot(self) -> u16 {
-        self.source as u16
+        self.source as u16 >> 1
+    }
+
+    /// Which triangle of the slot it is of: 0 for the left one, which all [halves](Self::halves) but the right ones are of.
+    #[inline(always)]
+    pub(crate) const fn half(self) -> usize {
+        (self.source & 1) as usize
     }
 
     /// The number of its material in the picture.
@@ -89,7 +109,7 @@ impl Span {
 }
 
 /// Spans that are handed on at once.
-const SPANS: usize = 16;
+pub(super) const SPANS: usize = 16;
 
 /// Some disjoint spans of one line, left to right, none of them empty, gaps showing the background.
 #[derive(Clone, Debug)]

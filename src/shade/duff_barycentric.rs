@@ -7,7 +7,7 @@ use crate::{
         interpolant::{Interpolant, Plane, Steps},
         power::Power,
         quadratic::{Differences, Quadratic},
-        root::inverse_root,
+        root::{inverse_root, near_inverse_root},
     },
     model::light::LightSource,
     scan::triangle::Triangle,
@@ -228,8 +228,8 @@ fn gentle<const LIGHTS: usize, L: LightSource>(
     Some(Cosines::Gentle(cosines))
 }
 
-/// The largest edge constant at which the diffuse cosines are quadratic, Q15: 34° between two normals.
-pub(super) const GENTLE: u32 = 32768 / 6;
+/// The largest edge constant at which the diffuse cosines are quadratic, Q15: 48° between two normals.
+pub(super) const GENTLE: u32 = 32768 / 3;
 /// The same where a highlight shows, as e² times the exponent, Q16: what is off at the highlight's flank grows with both.
 const GENTLE_SHINY: u32 = 65536 / 2;
 
@@ -291,7 +291,7 @@ impl<const LIGHTS: usize, N: Steps> Steep<LIGHTS, N, Differences> {
             let (start, shift, intensities) = (power.start(), power.shift(), *surface.intensities);
             let from = start + (first::<LIGHTS>(power, paint.least()) << shift);
             for pixel in pixels {
-                let root = inverse_root(bend.next());
+                let root = near_inverse_root(bend.next());
                 let mut intensity = Intensity::default();
                 for ([diffuse, specular], strength) in dots.iter_mut().zip(intensities) {
                     // Q16 · Q15: cosines in Q31.
@@ -305,7 +305,7 @@ impl<const LIGHTS: usize, N: Steps> Steep<LIGHTS, N, Differences> {
             }
         } else {
             for pixel in pixels {
-                let root = inverse_root(bend.next());
+                let root = near_inverse_root(bend.next());
                 let mut intensity = Intensity::default();
                 for [diffuse, _] in &mut dots {
                     intensity.diffuse += lit(diffuse.next()).wrapping_mul(root) >> 17;

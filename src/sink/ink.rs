@@ -69,9 +69,9 @@ impl<const BITS: u32> Channel<BITS> {
         Self::saturated(self.sum(intensity)) as u8
     }
 
-    /// The level of a Q15 factor.
-    fn level(factor: u16) -> u8 {
-        ((u32::from(factor) * Self::LARGEST + (1 << 14)) >> 15).min(Self::LARGEST) as u8
+    /// The level of a Q15 factor, one at most.
+    const fn level(factor: u16) -> u8 {
+        ((factor as u32 * Self::LARGEST + (1 << 14)) >> 15) as u8
     }
 }
 
@@ -97,7 +97,7 @@ impl<const R: u32, const G: u32, const B: u32> Rgb<R, G, B> {
     }
 
     fn levels(color: Color) -> [u8; 3] {
-        let [r, g, b] = color.0;
+        let [r, g, b] = color.limited();
         [Channel::<R>::level(r), Channel::<G>::level(g), Channel::<B>::level(b)]
     }
 }
@@ -277,7 +277,7 @@ impl Ink for Gray8 {
     }
 
     fn plain(color: Color) -> Self {
-        Self::new(Channel::<8>::level(color.luma()))
+        Self::new(Channel::<8>::level(color.luma().min(1 << 15)))
     }
 }
 
@@ -296,7 +296,7 @@ impl Ink for Gray4 {
     }
 
     fn plain(color: Color) -> Self {
-        Self::new(Channel::<4>::level(color.luma()))
+        Self::new(Channel::<4>::level(color.luma().min(1 << 15)))
     }
 }
 

@@ -182,7 +182,7 @@ impl<
     /// As [`add`](Self::add): what is then there is not split.
     pub fn add_split<S: Split<LIGHTS, L>>(&mut self, mesh: &'m Mesh<'m>, pose: &Pose, split: &S) -> Result<Splits, Full> {
         let (objects, first) = (self.objects.len(), self.buckets.used);
-        self.add(mesh, pose)?;
+        self.add_by(mesh, pose, false)?;
         let (Some(object), Some(aims)) = (self.objects.get(objects), self.aims.get(objects)) else {
             // Out of sight.
             return Ok(Splits::default());
@@ -325,7 +325,7 @@ impl<
         let (mut next, others) = (made + 1, made + 1..self.made.len());
         for i in others {
             let Some(part) = self.made.get(i).copied() else { break };
-            let sorted = self.buckets.sort(vertices, &[part.corners], number(next), false);
+            let sorted = self.buckets.sort(vertices, &[part.corners], number(next), false, false);
             if sorted.left_out > 0 {
                 return None;
             }

@@ -80,9 +80,9 @@ fn main() -> ! {
     let spi = Spi::<_, _, _, 16>::new(port, wires).init(resets, clock, fastest, MODE_3);
     cs.set_low().unwrap();
 
-    // Vertices, triangles that face the eye, lines; then triangles that cross one line.
-    let frame = singleton!(: Frame<'static, 481, 512, SIDE> = Frame::new()).unwrap();
-    let scanner = singleton!(: Scanner<72> = Scanner::new()).unwrap();
+    // Vertices, triangles or pairs that face the eye, lines; then triangles or pairs that cross one line.
+    let frame = singleton!(: Frame<'static, 481, 320, SIDE> = Frame::new()).unwrap();
+    let scanner = singleton!(: Scanner<48> = Scanner::new()).unwrap();
     let [mut row, other] = singleton!(: [[u16; SIDE]; 2] = [[0; SIDE]; 2]).unwrap().each_mut();
     let camera = Camera::new(Size::new_equal(SIDE as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
     let light = Light::directional([-0.5, 0.7, 0.6]);

@@ -41,8 +41,8 @@ fn main() -> ! {
 
     let camera = Camera::new(Size::new(128, 64)).field_of_view(Turn::degrees(40)).at_distance(2.2);
     let light = Light::directional([-0.5, 0.7, 0.6]);
-    let mut frame = Frame::<481, 512, 64>::new(); // vertices, triangles that face the eye, lines
-    let mut scanner = Scanner::<96>::new(); // triangles that cross one line
+    let mut frame = Frame::<481, 320, 64>::new(); // vertices, triangles or pairs that face the eye, lines
+    let mut scanner = Scanner::<48>::new(); // triangles or pairs that cross one line
     let mut row = [Gray8::BLACK; 128];
     let mut page = Page::<128>::new();
     let mut step = 0;

@@ -48,8 +48,8 @@ async fn main(_spawner: Spawner) {
 
     let camera = Camera::new(Size::new_equal(SIDE.into())).field_of_view(Turn::degrees(40)).at_distance(2.45);
     let light = Light::directional([-0.5, 0.7, 0.6]);
-    let mut frame = Frame::<481, 512, { SIDE as usize }>::new(); // vertices, triangles that face the eye, lines
-    let mut scanner = Scanner::<96>::new(); // triangles that cross one line
+    let mut frame = Frame::<481, 320, { SIDE as usize }>::new(); // vertices, triangles or pairs that face the eye, lines
+    let mut scanner = Scanner::<48>::new(); // triangles or pairs that cross one line
                                             // Rgb565, high byte first.
     let (mut shading, mut sending) = (&mut [[0; 2]; SIDE as usize], &mut [[0; 2]; SIDE as usize]);
     for step in 0.. {

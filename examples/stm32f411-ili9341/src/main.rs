@@ -49,8 +49,8 @@ async fn main(_spawner: Spawner) {
 
     let camera = Camera::new(Size::new(WIDTH as u32, HEIGHT as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
     let light = Light::directional([-0.5, 0.7, 0.6]);
-    let mut frame = Frame::<481, 512, HEIGHT>::new(); // vertices, triangles that face the eye, lines
-    let mut scanner = Scanner::<96>::new(); // triangles that cross one line
+    let mut frame = Frame::<481, 320, HEIGHT>::new(); // vertices, triangles or pairs that face the eye, lines
+    let mut scanner = Scanner::<48>::new(); // triangles or pairs that cross one line
     let (mut shading, mut sending) = (&mut [[0; 2]; WIDTH], &mut [[0; 2]; WIDTH]); // Rgb565, high byte first
     for step in 0.. {
         let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(Turn::degrees(6 * (step % 60)));

@@ -291,7 +291,7 @@ fn around(positions: &[[i16; 3]], center: [i16; 3]) -> ([i16; 3], u16) {
     }
 }
 
-/// Up to 40 triangles: slivers, points, repeated vertices and all bit patterns of positions, normals and edges among them.
+/// Up to 40 triangles, in every other shape pairs that share an edge: slivers, points, repeated vertices and all bit patterns of positions, normals and edges among them.
 fn shapes() -> impl Strategy<Value = Shape> {
     let coordinate =
         || prop_oneof![4 => any::<i16>(), 2 => -300..=300i16, 1 => Just(0), 1 => prop_oneof![Just(i16::MIN), Just(i16::MAX)]];
@@ -300,13 +300,20 @@ fn shapes() -> impl Strategy<Value = Shape> {
     let edges = prop_oneof![2 => uniform3(0..3000u16), 1 => uniform3(any::<u16>())];
     let extent = prop_oneof![12 => Just(1 << 16), 1 => 1..=i32::MAX, 1 => 1..1000].prop_map(I16F16::from_bits);
     let center = prop_oneof![1 => Just([0; 3]), 1 => uniform3(any::<i16>())];
-    (vec(vertex, 1..=20), vec((any::<[u16; 3]>(), edges), 1..=40), extent, center, any::<[u16; 3]>()).prop_map(
-        |(vertices, triangles, extent, center, [split, first, second])| {
+    let triangles = vec((any::<[u16; 3]>(), edges), 1..=40);
+    (vec(vertex, 1..=20), triangles, any::<bool>(), extent, center, any::<[u16; 3]>()).prop_map(
+        |(vertices, triangles, pairs, extent, center, [split, first, second])| {
             let (positions, normals): (Vec<_>, Vec<_>) = vertices.into_iter().unzip();
             let (center, radius) = around(&positions, center);
             let (corners, edges): (Vec<_>, Vec<_>) = triangles.into_iter().unzip();
             let corner = |number: u16| number % positions.len() as u16;
-            let triangles: Vec<_> = corners.into_iter().map(|corners| corners.map(corner)).collect();
+            let mut triangles: Vec<_> = corners.into_iter().map(|corners| corners.map(corner)).collect();
+            if pairs {
+                for pair in triangles.chunks_exact_mut(2) {
+                    let [a, _, c] = pair[0];
+                    pair[1] = [a, c, pair[1][2]];
+                }
+            }
             let split = split % (triangles.len() as u16 + 1);
             let parts = vec![[split, first % 4], [triangles.len() as u16 - split, second % 4]];
             Shape { extent, center, radius, positions, normals, triangles, edges, parts }
