@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
 
 /// Percent on top of the least prices that no line of the calibration exceeds: of the walk to the visible spans, whose counts
 /// explain less, and of shading these.
-const MARGINS: [f64; 2] = [12.0, 8.0];
+const MARGINS: [f64; 2] = [12.0, 10.0];
 /// How much more than the count span tables may cost in the mean.
 const MEAN: f64 = 1.5;
 

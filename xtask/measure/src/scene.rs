@@ -1,6 +1,6 @@
 //! The scenes: Newell's teapot of 880 triangles or another mesh, turning once, in Rgb565.
 
-use beamshade::{Camera, Frame, Line, Lines, Pose, Rotation, Scanner, Turn};
+use beamshade::{Camera, Color, Frame, Line, Lines, Pose, Rotation, Scanner, Turn};
 use embedded_graphics::{
     geometry::Size,
     pixelcolor::{Rgb565, RgbColor},
@@ -85,16 +85,18 @@ mod setting {
         _ if cfg!(feature = "growth") => 12,
         _ => 60,
     };
-    /// Triangles that face the eye in the worst frame, and that cross the worst line.
+    /// What faces the eye in the worst frame, and what crosses the worst line: pairs of triangles, and single ones.
     pub(super) const SEEN: usize = match () {
         _ if cfg!(any(feature = "i80", feature = "growth")) => super::TRIANGLES,
-        _ if cfg!(feature = "t5560") => 2974,
-        _ => 488,
+        _ if cfg!(feature = "t5560") => 1506,
+        _ if cfg!(feature = "smooth") => 264,
+        _ => 252,
     };
     pub(super) const ACTIVE: usize = match () {
         _ if cfg!(feature = "growth") => 384,
-        _ if cfg!(feature = "t5560") => 167,
-        _ => 65,
+        _ if cfg!(feature = "t5560") => 94,
+        _ if cfg!(feature = "smooth") => 40,
+        _ => 37,
     };
 
     /// The number in the variable BEAMSHADE_SIZE of the build, or 240.
@@ -121,8 +123,8 @@ mod setting {
     pub(super) const WIDTH: usize = 240;
     pub(super) const HEIGHT: usize = 240;
     pub(super) const FRAMES: u16 = 60;
-    pub(super) const SEEN: usize = 3 * 488;
-    pub(super) const ACTIVE: usize = 3 * 65;
+    pub(super) const SEEN: usize = 3 * 252;
+    pub(super) const ACTIVE: usize = 3 * 37;
 
     pub(super) fn lights() -> [Light; LIGHTS] {
         [Light::directional([-0.5, 0.7, 0.6])]
@@ -157,8 +159,8 @@ mod setting {
     pub(super) const WIDTH: usize = 240;
     pub(super) const HEIGHT: usize = 240;
     pub(super) const FRAMES: u16 = 12;
-    pub(super) const SEEN: usize = 488;
-    pub(super) const ACTIVE: usize = 65;
+    pub(super) const SEEN: usize = 252;
+    pub(super) const ACTIVE: usize = 37;
 
     pub(super) fn lights() -> [Light; LIGHTS] {
         let light = |towards| Light::directional(towards).intensity(0.4);
@@ -176,8 +178,8 @@ mod setting {
     pub(super) const WIDTH: usize = 240;
     pub(super) const HEIGHT: usize = 240;
     pub(super) const FRAMES: u16 = if cfg!(feature = "parts") { 4 } else { 12 };
-    pub(super) const SEEN: usize = 488;
-    pub(super) const ACTIVE: usize = 65;
+    pub(super) const SEEN: usize = 252;
+    pub(super) const ACTIVE: usize = 37;
 
     pub(super) fn lights() -> [SceneLight; LIGHTS] {
         [SceneLight::point([-1.5, 2.1, 1.8])]
@@ -194,8 +196,8 @@ mod setting {
     pub(super) const WIDTH: usize = if cfg!(feature = "adaptive-256") { 256 } else { 512 };
     pub(super) const HEIGHT: usize = WIDTH;
     pub(super) const FRAMES: u16 = 60;
-    pub(super) const SEEN: usize = 488;
-    pub(super) const ACTIVE: usize = 65;
+    pub(super) const SEEN: usize = 252;
+    pub(super) const ACTIVE: usize = 37;
 
     pub(super) fn lights() -> [SceneLight; LIGHTS] {
         let light = |place| SceneLight::point(place).intensity(0.4);
@@ -253,17 +255,34 @@ type TeapotFrame = Frame<
     'static,
     { VERTICES * OBJECTS + 4 * PANES + CORNERS },
     { SEEN + 2 * PANES + MADE },
-    HEIGHT,
+    { HEIGHT * SUBLINES },
     LIGHTS,
     { OBJECTS + PANES },
     MADE,
     Source,
 >;
-/// Triangles that cross a line.
+/// Lines of a picture for each one that is drawn.
+const SUBLINES: usize = if cfg!(feature = "smooth") { Camera::SUBLINES as usize } else { 1 };
+/// What crosses a line.
 const CROSS: usize = ACTIVE + 2 * PANES + MADE / 16;
 type TeapotScanner = Scanner<CROSS, Shading, LIGHTS, Source, Seeing>;
 type TeapotLines<'s> = Lines<'s, 's, CROSS, Shading, LIGHTS, Source, Seeing>;
-type Row = [Rgb565; WIDTH];
+
+/// A row of pixels.
+#[derive(Debug)]
+pub struct Row {
+    pixels: [Rgb565; WIDTH],
+    /// What smooth lines blend.
+    colors: [Color; if cfg!(feature = "smooth") { SUBLINES * WIDTH } else { 0 }],
+}
+
+impl core::ops::Deref for Row {
+    type Target = [Rgb565];
+
+    fn deref(&self) -> &[Rgb565] {
+        &self.pixels
+    }
+}
 
 /// A measured scene: all state that rendering it needs, and one row of pixels.
 #[derive(Debug)]
@@ -288,7 +307,9 @@ impl Scene {
     pub const RAM: &'static [(&'static str, usize)] = &[
         ("Frame", size_of::<TeapotFrame>()),
         ("Scanner", size_of::<TeapotScanner>()),
-        ("rows", 2 * size_of::<Row>()),
+        ("rows", 2 * size_of::<[Rgb565; WIDTH]>()),
+        #[cfg(feature = "smooth")]
+        ("colours", size_of::<Row>() - size_of::<[Rgb565; WIDTH]>()),
         #[cfg(feature = "ahead")]
         ("tables", size_of::<ahead::Tables>()),
     ];
@@ -298,7 +319,7 @@ impl Scene {
         Scene {
             frame: Frame::new(),
             scanner: Scanner::new(),
-            row: [Rgb565::BLACK; WIDTH],
+            row: Row { pixels: [Rgb565::BLACK; WIDTH], colors: [Color::BLACK; _] },
             #[cfg(feature = "ahead")]
             tables: ahead::Tables::new(),
             #[cfg(feature = "ways")]
@@ -328,6 +349,7 @@ impl Scene {
     /// Begins a frame; gives how the scene is turned.
     fn begin(&mut self, degrees: i32) -> Option<Rotation> {
         let camera = Camera::new(Size::new(WIDTH as u32, HEIGHT as u32)).field_of_view(Turn::degrees(40)).at_distance(2.45);
+        let camera = if cfg!(feature = "smooth") { camera.smooth() } else { camera };
         let rotation = Rotation::x(Turn::degrees(25)) * Rotation::y(Turn::degrees(degrees));
         self.frame.begin(&camera, &lights()).is_ok().then_some(rotation)
     }
@@ -381,11 +403,11 @@ impl Scene {
     #[inline(always)]
     pub fn shade(lines: &mut TeapotLines<'_>, y: u16, row: &mut Row) -> Line {
         if cfg!(feature = "transparent") {
-            lines.transparent_line(y, row)
+            lines.transparent_line(y, &mut row.pixels)
         } else if cfg!(feature = "smooth") {
-            lines.smooth_line(y, row)
+            lines.smooth_line(y, &mut row.colors, &mut row.pixels)
         } else {
-            lines.line(y, row)
+            lines.line(y, &mut row.pixels)
         }
     }
 }

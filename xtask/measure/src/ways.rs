@@ -187,7 +187,7 @@ impl Scene {
     /// Draws the frame that was prepared by all methods in all ways, and hands each row to `see`. False if a table had no room.
     pub fn draw_all_ways(&mut self, step: u16, mut see: impl FnMut(&[Rgb565])) -> bool {
         let Self { frame, row, tables: Tables { duff, quadratic, gouraud, flat, ladder, plan }, .. } = self;
-        let picture = frame.picture();
+        let (picture, row) = (frame.picture(), &mut row.pixels);
         let scene = if step < CALIBRATE { "calibrate" } else { "check" };
         let mut fits = duff.draw(picture, row, [scene, "duff-barycentric"], &mut see)
             & quadratic.draw(picture, row, [scene, "quadratic-intensity"], &mut see)
