@@ -280,8 +280,9 @@ impl<const N: usize> Sweep<N> {
             let [Some(other), Some(front)] = pair.map(|slot| slots.get(slot)) else { return NEVER };
             let middles = [other, front].map(|active| i32::from(active.middle()));
             let until = middles.iter().fold(end, |until, middle| if *middle > from { until.min(*middle) } else { until });
-            let [left, right] = middles.map(|middle| usize::from(middle <= from));
-            let (ahead, crossing) = self.compare(pair, [left, right], from..until, slots, geometry);
+            let [of_other, of_front] = middles.map(|middle| usize::from(middle <= from));
+            let [other, front] = pair;
+            let (ahead, crossing) = self.compare([(other, of_other), (front, of_front)], from..until, slots, geometry);
             let known = *known.get_or_insert(ahead);
             if ahead != known {
                 return (known, from);
@@ -294,19 +295,17 @@ impl<const N: usize> Sweep<N> {
         NEVER
     }
 
-    /// The same for these halves of them, between two pixels, of which there is at least one.
+    /// The same for a half of each, given slot and half, between two pixels, of which there is at least one.
     #[inline(always)]
     fn compare<const L: usize>(
         &mut self,
-        slots_of: [usize; 2],
-        halves: [usize; 2],
+        [one, two]: [(usize, usize); 2],
         pixels: Range<i32>,
         slots: &mut [Active; N],
         geometry: &Geometry<'_, '_, L>,
     ) -> (bool, i32) {
         const NEVER: (bool, i32) = (false, i32::MAX);
-        let pair = [0, 1].map(|i| (slots_of[i], halves[i]));
-        for (slot, half) in pair {
+        for (slot, half) in [one, two] {
             match slots.get_mut(slot).and_then(|active| active.halves.get_mut(half)) {
                 Some(half) if !half.deep => {
                     let exact = half.deepen(geometry);
@@ -316,7 +315,7 @@ impl<const N: usize> Sweep<N> {
             }
         }
         let of = |(slot, half): (usize, usize)| slots.get(slot).and_then(|active| active.halves.get(half));
-        let [Some(other), Some(front)] = pair.map(of) else { return NEVER };
+        let (Some(other), Some(front)) = (of(one), of(two)) else { return NEVER };
         let Range { start: x, end } = pixels;
         let last = end - 1;
         let wins = || wins(other.id, front.id, geometry);
