@@ -11,12 +11,13 @@ use crate::{
     },
     price::{cycles, Price},
     scan::{table::Span, visibility::Visibility},
-    scanner::{Line, Lines, Take},
+    scanner::{Line, Lines},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{
         ink::{Ink, LEAST},
         row::Row,
     },
+    walk::Take,
     work::Work,
 };
 

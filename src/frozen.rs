@@ -18,9 +18,10 @@ use crate::{
         table::Span,
         visibility::Visibility,
     },
-    scanner::{Line, Lines, Take},
+    scanner::{Line, Lines},
     shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
     sink::{ink::Ink, row::Row},
+    walk::Take,
     work::Work,
 };
 

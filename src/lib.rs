@@ -89,6 +89,7 @@ pub mod sink;
 pub(crate) mod smooth;
 pub mod split;
 pub(crate) mod transparent;
+pub(crate) mod walk;
 pub mod work;
 
 pub use baked::Baked;

@@ -12,19 +12,18 @@ use crate::{
     },
     scan::{
         active::Active,
-        bucket::TriangleId,
         columns::Columns,
         geometry::Source,
         list::ActiveList,
         picture::Picture,
         resolve::Spanning,
         table::{Span, Table},
-        triangle::Triangle,
         visibility::Visibility,
     },
-    shade::{duff_barycentric::DuffBarycentric, Shade, Surface},
+    shade::{duff_barycentric::DuffBarycentric, Shade},
     sink::{ink::Ink, row::Row},
-    work::{Tally, Work},
+    walk::{Dressed, Shading, Take, Walk},
+    work::Work,
 };
 
 /// The state of a walk down a picture: up to `ACTIVE` triangles that cross one line, each with a facet of the shading method. Two that the
@@ -240,18 +239,7 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         let picture = &self.picture;
         let look = list.extents().first().map_or(0, |extent| extent.look());
         let line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::NONE };
-        let mut walk = Walk {
-            picture,
-            facets,
-            to,
-            look,
-            material,
-            spans: 0,
-            made: 0,
-            bent: 0,
-            degraded: &mut self.degraded,
-            tally: Tally::NONE,
-        };
+        let mut walk = Walk::new(picture, facets, &mut self.degraded, look, material, to);
         visibility.resolve(y, width as i32, list, &picture.geometry, table, |spans, slots| walk.see(spans, slots));
         let (active, spans, facets) = (line.active.into(), walk.spans.into(), walk.made.into());
         list.tally.add(Work { active, spans, facets, ..walk.tally.work() });
@@ -334,189 +322,4 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         self.scanner.list.tally.add(Work { walked: 1, ..Work::NONE });
         true
     }
-}
-
-/// Who takes the visible spans of a line, from left to right: a row of pixels, a baked line, a frozen picture.
-pub(crate) trait Take<'m, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> {
-    /// Spans have another material from here on.
-    fn dress(&mut self, material: &'m Material);
-
-    /// Keeps a facet that was just set up, if it has to; returns its number, from 1 on.
-    #[inline(always)]
-    fn keep(&mut self, _facet: &S::Facet, _id: TriangleId) -> u16 {
-        1
-    }
-
-    /// A span, which is not empty, of a triangle with that facet, of that number.
-    fn span(&mut self, span: Span, facet: &S::Facet, number: u16);
-}
-
-/// Spans on their way to whoever takes them.
-struct Walk<'a, 'f, 'm, T, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> {
-    picture: &'a Picture<'f, 'm, LIGHTS, L>,
-    facets: &'a mut [[S::Facet; 2]; ACTIVE],
-    to: T,
-    /// The material, and its number.
-    look: u16,
-    material: &'m Material,
-    /// Counts of [`Line`]: spans, facets set up, and of those the bent ones.
-    spans: u16,
-    made: u16,
-    bent: u16,
-    degraded: &'a mut Degraded,
-    tally: Tally,
-}
-
-impl<'m, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>
-    Walk<'_, '_, 'm, T, S, ACTIVE, LIGHTS, L>
-{
-    /// Hands on spans that lie in the picture, each with its facet.
-    #[inline(never)]
-    fn see(&mut self, spans: &[Span], slots: &mut [Active; ACTIVE]) {
-        self.spans += spans.len() as u16;
-        for span in spans {
-            if span.is_empty() {
-                self.skip();
-                continue;
-            }
-            if self.look != span.look() {
-                self.dress(span.look());
-            }
-            let Some(active) = slots.get_mut(usize::from(span.slot())) else { break };
-            let (start, middle, end) = (span.start(), i32::from(active.middle()), span.end());
-            if middle >= end {
-                self.show::<0>(*span, active);
-                continue;
-            }
-            if middle > start {
-                self.spans += 1;
-                self.show::<0>(span.with(start, middle), active);
-            }
-            self.show::<1>(span.with(middle.max(start), end).right(), active);
-        }
-    }
-
-    /// Hands on a span of one triangle.
-    #[inline(always)]
-    fn show<const HALF: usize>(&mut self, span: Span, active: &mut Active) {
-        let [_, near] = active.reach();
-        let facets = self.facets.get_mut(usize::from(span.slot()));
-        let (Some(half), Some(facet)) = (active.halves.get_mut(HALF), facets.and_then(|facets| facets.get_mut(HALF))) else {
-            return;
-        };
-        if half.facet == 0 {
-            let surface = Surface { material: self.material, intensities: self.picture.intensities };
-            self.made += 1;
-            let mut rung = 0;
-            if S::BY_RUNG {
-                let steps = self.picture.steps_of(half.id);
-                self.tally.add(Work { asked: steps.len() as u32, ..Work::NONE });
-                rung = self.picture.steps.rung(steps, near);
-                self.degraded.count(rung);
-            }
-            self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, half.id, rung, &surface, facet));
-            half.facet = self.to.keep(facet, half.id);
-        }
-        self.to.span(span, facet, half.facet);
-    }
-
-    /// Does not count a span that is empty.
-    #[cold]
-    #[inline(never)]
-    fn skip(&mut self) {
-        self.spans -= 1;
-    }
-
-    /// Makes another material ready.
-    #[cold]
-    #[inline(never)]
-    fn dress(&mut self, look: u16) {
-        self.tally.add(Work { searched: 1, ..Work::NONE });
-        if let Some(material) = self.picture.geometry.material(look) {
-            (self.look, self.material) = (look, material);
-            self.to.dress(material);
-        }
-    }
-}
-
-/// Spans shaded into a row at once.
-struct Shading<'a, 'm, 'r, P: Ink, const LIGHTS: usize> {
-    row: Row<'r, P>,
-    dressed: Dressed<'a, 'm, P, LIGHTS>,
-}
-
-/// A material made ready for a line.
-pub(crate) struct Dressed<'a, 'm, P: Ink, const LIGHTS: usize> {
-    /// The line.
-    y: i32,
-    surface: Surface<'a, LIGHTS>,
-    paint: P::Paint<'m>,
-}
-
-impl<'m: 'a, 'a, P: Ink, const LIGHTS: usize> Dressed<'a, 'm, P, LIGHTS> {
-    #[inline(always)]
-    pub(crate) fn new(y: i32, material: &'m Material, intensities: &'a [u16; LIGHTS]) -> Self {
-        Self { y, surface: Surface { material, intensities }, paint: P::paint(material) }
-    }
-}
-
-impl<'m: 'a, 'a, P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
-    for Shading<'a, 'm, '_, P, LIGHTS>
-{
-    #[inline(always)]
-    fn dress(&mut self, material: &'m Material) {
-        self.dressed.surface.material = material;
-        self.dressed.paint = P::paint(material);
-    }
-
-    #[inline(always)]
-    fn span(&mut self, span: Span, facet: &S::Facet, _: u16) {
-        let Range { start, end } = span.range();
-        if let Some(pixels) = self.row.span(start, end) {
-            shade::<P, S, LIGHTS, L>(&self.dressed, facet, start as i32, pixels);
-        }
-    }
-}
-
-/// Shades one span.
-#[inline(never)]
-pub(crate) fn shade<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
-    dressed: &Dressed<'_, '_, P, LIGHTS>,
-    facet: &S::Facet,
-    x: i32,
-    pixels: &mut [P],
-) {
-    S::run(S::start(facet, x, dressed.y), &dressed.surface, pixels, &dressed.paint);
-}
-
-/// Sets up the facet of a triangle; whether its normals bend beyond what shading follows.
-#[inline(never)]
-fn set_up<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
-    picture: &Picture<'_, '_, LIGHTS, L>,
-    id: TriangleId,
-    rung: u8,
-    surface: &Surface<'_, LIGHTS>,
-    facet: &mut S::Facet,
-) -> bool {
-    let Some(triangle) = picture.triangle(id) else { return false };
-    let corners;
-    let triangle = Triangle { rung, ..triangle };
-    let triangle = if surface.material.double_sided && triangle.is_turned() {
-        corners = triangle.turned();
-        Triangle { corners: corners.each_ref(), turned: true, ..triangle }
-    } else {
-        triangle
-    };
-    let bent = is_bent(triangle.edges);
-    *facet = S::facet(&triangle, surface);
-    bent
-}
-
-/// Whether `u = 1 − |N|²` passes 63/64 in the middle of an edge (e/2) or at the centroid (2/9 of the sum), e being Q15.
-const fn is_bent(edges: &[u16; 3]) -> bool {
-    const MOST: u32 = (1 << 15) * 63 / 64;
-    let [e01, e12, e20] = *edges;
-    let [e01, e12, e20] = [e01 as u32, e12 as u32, e20 as u32];
-    // Below one, all of them pass neither.
-    (e01 | e12 | e20) >= 1 << 15 && (e01 > 2 * MOST || e12 > 2 * MOST || e20 > 2 * MOST || 2 * (e01 + e12 + e20) > 9 * MOST)
 }

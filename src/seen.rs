@@ -10,9 +10,10 @@ use crate::{
         material::{Color, Material},
     },
     scan::{picture::Picture, table::Span, visibility::Visibility},
-    scanner::{shade, Dressed, Line, Lines, Take},
+    scanner::{Line, Lines},
     shade::Shade,
     sink::ink::Ink,
+    walk::{shade, Dressed, Take},
 };
 
 /// The spans of a line from a pixel on, on their way to be looked at together.

@@ -6,7 +6,7 @@ use heapless::Vec;
 
 use crate::{
     model::{camera::Camera, light::LightSource, material::Color},
-    scan::{edge::Edge, list::ActiveList, silhouette::Silhouette, table::Span, visibility::Visibility},
+    scan::{active::Active, edge::Edge, list::ActiveList, silhouette::Silhouette, table::Span, visibility::Visibility},
     scanner::{Line, Lines},
     seen::Seen,
     shade::Shade,
@@ -103,21 +103,14 @@ impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
             return None;
         }
         // Beyond a diagonal is the other triangle of the pair.
-        let is_outer = |span: Option<Span>, half: usize| span.is_some_and(|span| !self.is_divided(span) || span.half() != half);
+        let is_divided = |span: &Span| self.list.get(span.slot()).is_some_and(Active::is_divided);
+        let is_outer = |span: Option<Span>, half: usize| span.is_some_and(|span| span.half() != half || !is_divided(&span));
         let [end, start] = [edge.filter(|_| is_outer(left, 0)), other.filter(|_| is_outer(right, 1))];
         let [edge, other] = [self.end(end, true, other), self.end(start, false, edge)];
         let Some((left, right)) = left.zip(right) else { return edge.or(other) };
         let is_behind = other.is_some() && self.nearness(left) < self.nearness(right);
         let edge = if is_behind { other } else { edge.or(other) };
         edge.or_else(|| self.crossing(left, right))
-    }
-
-    /// Whether both triangles of the pair that a span shows one of cover pixels.
-    fn is_divided(&self, span: Span) -> bool {
-        self.list.get(span.slot()).is_some_and(|active| {
-            let (start, end) = active.extent();
-            (start + 1..end).contains(&active.middle())
-        })
     }
 
     /// How near a triangle is as a whole.

@@ -219,6 +219,12 @@ impl Active {
         }
     }
 
+    /// Whether both triangles of a pair cover pixels of the line.
+    pub(crate) fn is_divided(&self) -> bool {
+        let (start, end) = self.extent();
+        start < self.middle() && self.middle() < end
+    }
+
     /// The least and the largest nearness of all of it.
     #[inline(always)]
     pub(crate) fn reach(&self) -> [i32; 2] {
@@ -311,21 +317,17 @@ fn pick<T: Copy>(four: &[T; 4], place: u32) -> T {
 fn by_height<const LIGHTS: usize>([a, b, c, d]: [&Vertex<LIGHTS>; 4], is_pair: bool) -> [u32; 4] {
     let [a, b, c, d] = [key(a, 0), key(b, 1), key(c, 2), key(d, 3)];
     let [a, b] = ordered(a, b);
-    let mut order;
-    if is_pair {
+    let order = if is_pair {
         let [c, d] = ordered(c, d);
         let ([a, c], [b, d]) = (ordered(a, c), ordered(b, d));
         let [b, c] = ordered(b, c);
-        order = [a, b, c, d];
+        [a, b, c, d]
     } else {
         let [b, c] = ordered(b, c);
         let [a, b] = ordered(a, b);
-        order = [a, b, c, c];
-    }
-    for key in &mut order {
-        *key &= 3;
-    }
-    order.map(|place| place as u32)
+        [a, b, c, c]
+    };
+    order.map(|key| (key & 3) as u32)
 }
 
 /// A corner's height, and its place.

@@ -229,7 +229,7 @@ impl Known {
             // Two cross each other three times at most, as each may be two planes, and each that begins overlaps with all but one of
             // those that cover its first pixel.
             let deep = if here.is_deep() { overlapping } else { overlapping.min(2) };
-            let crossings = shared.min(3 * overlapping.saturating_mul(deep.saturating_sub(1)));
+            let crossings = shared.min(overlapping.saturating_mul(deep.saturating_sub(1)).saturating_mul(3));
             // One is in front until it ends, another one begins, or it is crossed.
             work.fronts = 3 * (overlapping + outside) + crossings + 2 * full + 2;
             let elected = (overlap + full.saturating_mul(overlapping)).min(work.fronts.saturating_mul(deep));

@@ -41,7 +41,7 @@ impl Visibility for Spanning {
 /// the one in front ends or is crossed: not at each pixel, and not at all where one triangle as a whole is nearer than the other.
 /// A crossing is the first pixel where the other one is in front; equal depths go to the lower (object, triangle).
 ///
-/// Triangles go by their place in the list, whose extents are in order: those that have not begun start at x or after it, save
+/// A pair of triangles is one here, of two planes: left of its diagonal, and right of it. Triangles go by their place in the list, whose extents are in order: those that have not begun start at x or after it, save
 /// left of the picture.
 #[derive(Clone, Debug)]
 struct Sweep<const N: usize> {

@@ -25,9 +25,9 @@ struct Stage {
 const STAGES: [Stage; 5] = [
     Stage { name: "prepare", modules: &["beamshade::frame", "beamshade::scan::bucket::Buckets"], functions: &[] },
     Stage { name: "set-up", modules: &[], functions: &["facet"] },
-    Stage { name: "background", modules: &[], functions: &["fill_background"] },
+    Stage { name: "background", modules: &[], functions: &["fill"] },
     Stage { name: "shade", modules: &["beamshade::shade", "beamshade::sink"], functions: &[] },
-    Stage { name: "scan", modules: &["beamshade::scan", "beamshade::scanner"], functions: &[] },
+    Stage { name: "scan", modules: &["beamshade::scan", "beamshade::scanner", "beamshade::walk"], functions: &[] },
 ];
 
 impl Stage {
@@ -178,6 +178,7 @@ mod tests {
         assert_eq!(name_of(&["<beamshade::scanner::Scanner<96, beamshade::shade::duff::Duff>>::line"]), Some("scan"));
         assert_eq!(name_of(&["beamshade::scanner::Scanner<_>::line"]), Some("scan"));
         assert_eq!(name_of(&["<beamshade::shade::duff::Duff as beamshade::shade::Shade>::run"]), Some("shade"));
+        assert_eq!(name_of(&["beamshade::sink::row::fill::<beamshade::shade::Pixel>"]), Some("background"));
         assert_eq!(name_of(&["beamshade::framebuffer::clear"]), None);
     }
 
