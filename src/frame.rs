@@ -24,10 +24,10 @@ use crate::{
 /// One frame's geometry, filled anew for each frame: [`begin`](Frame::begin), then [`add`](Frame::add) each object.
 ///
 /// It owns its memory: 12 bytes a vertex (8 and 4 for each light), 4 a triangle that faces the eye and touches the picture,
-/// 2 a line. Two triangles that follow each other in the mesh as a, b, c and a, c, d take the room of one where they are convex together
-/// on the screen. `TRIANGLES` is 32767 at most. Meshes are borrowed. `OBJECTS` counts objects in sight; `MADE` triangles and their corners, which take the place
-/// of vertices, come from clipping at the near plane and at 1535 pixels from the picture's centre, and from
-/// [splitting](Frame::add_split) where a highlight may lie.
+/// 2 a line. Two triangles that follow each other in the mesh as a, b, c and a, c, d take the room of one where they are convex
+/// together on the screen. `TRIANGLES` is 32767 at most; more does not compile. Meshes are borrowed. `OBJECTS` counts objects in
+/// sight; `MADE` triangles and their corners, which take the place of vertices, come from clipping at the near plane and at 1535
+/// pixels from the picture's centre, and from [splitting](Frame::add_split) where a highlight may lie.
 #[derive(Clone, Debug)]
 pub struct Frame<
     'm,

@@ -147,7 +147,7 @@ pub(crate) struct Buckets<const TRIANGLES: usize, const LINES: usize> {
 
 impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
     pub(crate) const fn new() -> Self {
-        assert!(TRIANGLES < Kept::PAIR as usize, "places are numbered in 15 bits");
+        const { assert!(TRIANGLES < Kept::PAIR as usize, "places are numbered in 15 bits") };
         let kept = [Kept { next: 0, triangle: TriangleId(0) }; TRIANGLES];
         Self { viewport: Rectangle::zero(), heads: [0; LINES], kept, used: 0 }
     }

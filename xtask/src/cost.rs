@@ -293,7 +293,8 @@ mod tests {
             counted,
         };
         let Price(prices) = calibrated(&[line(1, 0, 100), line(1, 10, 300), line(1, 10, 250)])?;
-        assert_eq!((prices.lines, prices.pixels, prices.facets), (108 * 16, (21.6_f64 * 16.0).ceil() as u32, 0));
+        let price = |least: u32| (16 * least * (100 + MARGINS[1] as u32)).div_ceil(100);
+        assert_eq!((prices.lines, prices.pixels, prices.facets), (price(100), price(20), 0));
         Ok(())
     }
 

@@ -9,7 +9,7 @@ use image::RgbImage;
 use std::time::Instant;
 
 /// Room on a PC: as many vertices, triangles and lines as there can be, and triangles on a line.
-type Frame<'m> = beamshade::Frame<'m, 0xffff, 0xffff, { LARGEST as usize }, 1, 1>;
+type Frame<'m> = beamshade::Frame<'m, 0xffff, 0x7fff, { LARGEST as usize }, 1, 1>;
 const ACTIVE: usize = 8192;
 /// The largest width and height of a picture.
 pub(super) const LARGEST: u32 = 1024;
