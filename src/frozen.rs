@@ -228,6 +228,8 @@ struct Freezing<'t, 'f, 'm, F, const SPANS: usize, const FACETS: usize, const LI
 impl<'m, S: Shade<LIGHTS, L>, const SPANS: usize, const FACETS: usize, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
     for Freezing<'_, '_, 'm, S::Facet, SPANS, FACETS, LIGHTS, L>
 {
+    const APART: bool = true;
+
     fn dress(&mut self, material: &'m Material) {
         self.material = material;
     }

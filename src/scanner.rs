@@ -73,7 +73,8 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
 pub struct Line {
     /// Triangles that cross it; two that are kept as one count once.
     pub active: u16,
-    /// Visible spans; pieces that clipping or splitting made of one triangle count apart.
+    /// Visible spans; pieces that clipping or splitting made of one triangle count apart, two triangles that share
+    /// [a facet](Shade::pair) together, but in frozen pictures.
     pub spans: u16,
     /// Facets set up on it.
     pub facets: u16,

@@ -27,6 +27,8 @@ struct Gathering<'a, const ACTIVE: usize> {
 impl<'m, S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource> Take<'m, S, LIGHTS, L>
     for Gathering<'_, ACTIVE>
 {
+    const APART: bool = true;
+
     fn dress(&mut self, _: &'m Material) {}
 
     fn span(&mut self, span: Span, _: &S::Facet, _: u16) {

@@ -5,7 +5,13 @@ use core::ops::Range;
 use crate::{
     ladder::Degraded,
     model::{light::LightSource, material::Material},
-    scan::{active::Active, bucket::TriangleId, picture::Picture, table::Span, triangle::Triangle},
+    scan::{
+        active::{Active, Sharing},
+        bucket::TriangleId,
+        picture::Picture,
+        table::Span,
+        triangle::Triangle,
+    },
     shade::{Shade, Surface},
     sink::{ink::Ink, row::Row},
     work::{Tally, Work},
@@ -13,6 +19,9 @@ use crate::{
 
 /// Who takes the visible spans of a line, from left to right: a row of pixels, a baked line, a frozen picture.
 pub(crate) trait Take<'m, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource> {
+    /// Whether the triangles of a pair come as spans apart, even if one facet is for both.
+    const APART: bool = false;
+
     /// Spans have another material from here on.
     fn dress(&mut self, material: &'m Material);
 
@@ -71,8 +80,11 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
                 self.dress(span.look());
             }
             let Some(active) = slots.get_mut(usize::from(span.slot())) else { break };
+            if S::BY_PAIR && active.sharing == Sharing::Unknown {
+                self.share(span.slot(), active);
+            }
             let (start, middle, end) = (span.start(), i32::from(active.middle()), span.end());
-            if middle >= end {
+            if middle >= end || S::BY_PAIR && !T::APART && active.sharing == Sharing::Shared {
                 self.show::<0>(*span, active);
                 continue;
             }
@@ -84,7 +96,24 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
         }
     }
 
-    /// Hands on a span of one triangle.
+    /// Sets up one facet for both triangles of a pair, if that is enough.
+    #[inline(never)]
+    fn share(&mut self, slot: u16, active: &mut Active) {
+        active.sharing = Sharing::Apart;
+        let pair = active.pair().and_then(|first| self.picture.pair(first));
+        let surface = Surface { material: self.material, intensities: self.picture.intensities };
+        let facet = pair.and_then(|pair| S::pair(&pair, &surface));
+        if let (Some(facet), Some(facets)) = (facet, self.facets.get_mut(usize::from(slot))) {
+            active.sharing = Sharing::Shared;
+            *facets = [facet; 2];
+            self.made += 1;
+            for half in &mut active.halves {
+                half.facet = self.to.keep(&facet, half.id);
+            }
+        }
+    }
+
+    /// Hands on a span of one triangle, or of a pair that shares a facet.
     #[inline(always)]
     fn show<const HALF: usize>(&mut self, span: Span, active: &mut Active) {
         let [_, near] = active.reach();

@@ -37,8 +37,19 @@ pub struct Active {
     course: Course,
     /// Whether there are two triangles.
     is_pair: bool,
+    pub(crate) sharing: Sharing,
     /// The next free slot, if this one is free.
     pub(crate) next: u16,
+}
+
+/// Whether two triangles share a facet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sharing {
+    /// Each has its own, or there is only one.
+    Apart,
+    /// They were not seen yet.
+    Unknown,
+    Shared,
 }
 
 /// One of the triangles of an [`Active`].
@@ -70,6 +81,7 @@ impl Active {
         lower: [0; 3],
         course: Course::NONE,
         is_pair: false,
+        sharing: Sharing::Apart,
         next: 0,
     };
 
@@ -88,6 +100,7 @@ impl Active {
         let [a, b, c] = at(geometry.vertices, numbers.corners)?;
         let [wa, wb, wc] = [a, b, c].map(Vertex::nearness);
         self.is_pair = kept.is_pair();
+        self.sharing = if self.is_pair { Sharing::Unknown } else { Sharing::Apart };
         let names = [na, nb, nc, if self.is_pair { numbers.fourth()? } else { nc }];
         let [_, _, _, nd] = names;
         let vertices = [a, b, c, geometry.vertex(nd)?];
@@ -136,6 +149,12 @@ impl Active {
         } else {
             [&mut self.right, &mut self.left]
         }
+    }
+
+    /// The first of two triangles, if there are two.
+    pub(crate) fn pair(&self) -> Option<TriangleId> {
+        let [left, right] = self.halves;
+        self.is_pair.then_some(left.id.min(right.id))
     }
 
     /// Number of triangles.

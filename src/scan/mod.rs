@@ -9,6 +9,7 @@ pub mod edge;
 pub mod geometry;
 pub mod list;
 pub(crate) mod most;
+pub mod pair;
 pub mod picture;
 pub mod resolve;
 pub(crate) mod silhouette;

@@ -5,6 +5,7 @@ use embedded_graphics::primitives::Rectangle;
 use super::{
     bucket::TriangleId,
     geometry::{Geometry, Source},
+    pair::Pair,
     triangle::Triangle,
     vertex::Vertex,
 };
@@ -117,6 +118,20 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
         };
         let corners = [vertex(a)?, vertex(b)?, vertex(c)?];
         Some(Triangle { corners, edges: numbers.edges, aims, numbers, nearness, turned: false, rung: 0 })
+    }
+
+    /// A triangle of a mesh and the next one, which are kept as one, fetched.
+    #[inline]
+    pub(crate) fn pair(&self, first: TriangleId) -> Option<Pair<'f, LIGHTS>> {
+        let (object, triangle) = self.geometry.object(first)?;
+        let (data, first) = (object.mesh.data(), usize::from(triangle));
+        let (Some([[a, b, c], [_, _, d]]), Some([one, other])) =
+            (data.triangles.get(first..first + 2), data.edges.get(first..first + 2))
+        else {
+            return None;
+        };
+        let vertex = |number: u16| self.geometry.vertex(number.wrapping_add(object.first_vertex));
+        Some(Pair { corners: [vertex(*a)?, vertex(*b)?, vertex(*c)?, vertex(*d)?], edges: [one, other] })
     }
 }
 

@@ -5,7 +5,7 @@ use crate::{
         light::{Light, LightSource},
         material::Material,
     },
-    scan::triangle::Triangle,
+    scan::{pair::Pair, triangle::Triangle},
 };
 
 pub mod angular;
@@ -90,11 +90,20 @@ pub trait Shade<const LIGHTS: usize, L: LightSource = Light> {
     type Registers: Copy + core::fmt::Debug;
     /// Whether it asks for a triangle's [rung](Triangle::rung).
     const BY_RUNG: bool = false;
+    /// Whether there may be one facet for a [pair](Self::pair).
+    const BY_PAIR: bool = false;
     /// A facet of nothing, to fill memory with.
     const EMPTY: Self::Facet;
 
     /// Sets up a triangle.
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet;
+
+    /// Sets up one facet for two triangles that share an edge, if that is as good as one for each; asked once, when either is first
+    /// seen. They then make one span where they meet.
+    #[inline]
+    fn pair(_pair: &Pair<'_, LIGHTS>, _surface: &Surface<'_, LIGHTS>) -> Option<Self::Facet> {
+        None
+    }
 
     /// The registers at pixel x of line y.
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers;

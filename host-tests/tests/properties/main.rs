@@ -9,6 +9,7 @@ mod cost;
 mod coverage;
 mod ladder;
 mod lines;
+mod pairs;
 mod phong;
 mod scene;
 mod sinks;
