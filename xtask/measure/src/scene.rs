@@ -284,6 +284,12 @@ impl core::ops::Deref for Row {
     }
 }
 
+impl core::ops::DerefMut for Row {
+    fn deref_mut(&mut self) -> &mut [Rgb565] {
+        &mut self.pixels
+    }
+}
+
 /// A measured scene: all state that rendering it needs, and one row of pixels.
 #[derive(Debug)]
 pub struct Scene {
