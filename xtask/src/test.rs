@@ -5,7 +5,7 @@ use crate::boards::{self, BOARDS};
 use crate::firmware::{self, MEASURE, METHOD, SCENE, TARGETS};
 use crate::install::{self, Need};
 use crate::project;
-use crate::{cycles, goals, oled, process};
+use crate::{cycles, goals, oled, process, ways::WAYS};
 use anyhow::{ensure, Result};
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -91,11 +91,11 @@ fn formatting() -> Result<()> {
 
 fn lints() -> Result<()> {
     process::run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"]))?;
-    // The measuring firmware's scenes and the plugin are for a PC as well.
-    let host = format!("host,{SCENE},{METHOD}");
-    let peers = "host,retrofire-phong";
-    for (package, features) in [("xtask/compare", peers), ("xtask/counter", ""), ("xtask/measure", &*host)] {
-        let mut command = cargo(&["clippy", "--features", features, "--manifest-path"]);
+    // The plugin and the measuring firmware's scenes are for a PC as well.
+    let mut apart = vec![("xtask/compare", "host,retrofire-phong".to_owned()), ("xtask/counter", String::new())];
+    apart.extend(WAYS.map(|[_, scene, method]| ("xtask/measure", format!("host,{scene},{method}"))));
+    for (package, features) in apart {
+        let mut command = cargo(&["clippy", "--features", &features, "--manifest-path"]);
         command.arg(format!("{package}/Cargo.toml")).arg("--target-dir").arg(project::target()?.join("counter"));
         process::run(command.args(["--", "--deny", "warnings"]))?;
     }

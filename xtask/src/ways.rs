@@ -16,7 +16,7 @@ use beamshade::Schedule;
 pub(crate) struct Arguments {}
 
 /// What is told, the scene, and the method.
-const WAYS: [[&str; 3]; 12] = [
+pub(crate) const WAYS: [[&str; 3]; 12] = [
     ["rolling, default", "t880", METHOD],
     ["rolling, quadratic intensity", "t880", "quadratic-intensity"],
     ["rolling, Gouraud", "t880", "gouraud"],

@@ -45,7 +45,7 @@ impl Scene {
         let Self { frame, scanner, row, tables, .. } = self;
         let picture = frame.picture();
         #[cfg(feature = "frozen")]
-        let mut fits = tables.frozen.take(scanner.start(picture)).left_out == 0;
+        let fits = tables.frozen.take(scanner.start(picture)).left_out == 0;
         #[cfg(not(feature = "frozen"))]
         let mut fits = true;
         #[cfg(feature = "planned")]
