@@ -94,6 +94,12 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
         self.geometry.kept.iter().map(|kept| kept.count()).sum()
     }
 
+    /// Number of places that those triangles take in the frame: two that are kept as one take one.
+    #[must_use]
+    pub const fn places(&self) -> usize {
+        self.geometry.kept.len()
+    }
+
     /// Those triangles with their corners, in the order of their first addition to the frame; of one that was clipped or split, its
     /// parts.
     pub fn outlines(&self) -> impl Iterator<Item = (Source, [&'f Vertex<LIGHTS>; 3])> {

@@ -129,11 +129,15 @@ fn sheets_share_facets() {
     let mut runner = TestRunner::new(cases(0));
     let facets = |scene: &Scene| scene.show(rows).1.iter().map(|line| line.facets).sum::<u16>();
     let (mut one_each, mut shared) = (0, 0);
+    let (mut triangles, mut places) = (0, 0);
     for _ in 0..100 {
         let scene = sheets().new_tree(&mut runner).unwrap().current();
         one_each += u32::from(facets(&apart(&scene)));
         shared += u32::from(facets(&scene));
+        let [seen, taken] = scene.show(|picture| [picture.triangles(), picture.places()]);
+        (triangles, places) = (triangles + seen, places + taken);
     }
     println!("{shared} facets for {one_each} triangles");
     assert!(4 * shared < 3 * one_each);
+    assert!(2 * places >= triangles && 10 * places < 6 * triangles, "{places} places for {triangles} triangles");
 }

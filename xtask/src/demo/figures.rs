@@ -1,7 +1,7 @@
 //! What the pictures took, and what a program needs for them.
 
 use crate::table;
-use beamshade::{Frame, Line, Scanner, Shade};
+use beamshade::{Frame, Line, Picture, Scanner, Shade};
 use beamshade_mesh::Report;
 use embedded_graphics::{geometry::Size, pixelcolor::Rgb565};
 use std::time::Duration;
@@ -14,8 +14,9 @@ pub(super) struct Figures {
     /// Visible spans and facets of all frames.
     spans: u64,
     facets: u64,
-    /// Most triangles that face the eye in a frame; most that cross a line; most spans on a line.
+    /// Most triangles that face the eye in a frame; most places that they take; most that cross a line; most spans on a line.
     facing: usize,
+    places: usize,
     active: u16,
     line_spans: u16,
     /// Triangles left out, most in a frame.
@@ -33,10 +34,11 @@ impl Figures {
     }
 
     /// Takes note of a frame, after its lines.
-    pub(super) fn frame(&mut self, facing: usize, time: Duration) {
+    pub(super) fn frame(&mut self, picture: &Picture<'_, '_>, time: Duration) {
         self.frames += 1;
         self.time += time;
-        self.facing = self.facing.max(facing);
+        self.facing = self.facing.max(picture.triangles());
+        self.places = self.places.max(picture.places());
     }
 
     /// Prints them as a table.
@@ -48,7 +50,8 @@ impl Figures {
             ("vertices", count(mesh.vertices as u64)),
             ("triangles", count(mesh.triangles as u64)),
             ("facing the eye, worst frame", count(self.facing as u64)),
-            ("on one line, worst", count(self.active.into())),
+            ("places that they take, pairs one", count(self.places as u64)),
+            ("places on one line, worst", count(self.active.into())),
             ("visible spans on one line, worst", count(self.line_spans.into())),
             ("visible spans, mean frame", mean(self.spans)),
             ("facets set up, mean frame", mean(self.facets)),
@@ -63,15 +66,15 @@ impl Figures {
 
     /// Prints the types that a program needs for these pictures, and their bytes.
     pub(super) fn print_needs<S: Shade<1>>(&self, vertices: usize, size: Size) {
-        let Self { facing, active, .. } = *self;
+        let Self { places, active, .. } = *self;
         let Size { width, height } = size;
         let method = std::any::type_name::<S>().rsplit("::").next().unwrap_or_default();
-        let frame = frame_bytes(vertices, facing, height as usize);
+        let frame = frame_bytes(vertices, places, height as usize);
         let scanner = scanner_bytes::<S>(active.into());
         let rows = 2 * width as usize * size_of::<Rgb565>();
         let bytes = |bytes: usize| format!("{:>7} bytes", table::number(bytes as u64));
         println!("A program needs for these pictures:");
-        println!("    {:<36} // {}", format!("Frame::<{vertices}, {facing}, {height}>"), bytes(frame));
+        println!("    {:<36} // {}", format!("Frame::<{vertices}, {places}, {height}>"), bytes(frame));
         println!("    {:<36} // {}", format!("Scanner::<{active}, {method}>"), bytes(scanner));
         println!("    {:<36} // {}", format!("[[Rgb565; {width}]; 2]"), bytes(rows));
         println!("    {:<36} // {}\n", "in all", bytes(frame + scanner + rows));

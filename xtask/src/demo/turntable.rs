@@ -57,7 +57,7 @@ impl<'m, S: Shade<1>> Turntable<'m, S> {
             figures.line(&lines.line(y, &mut row));
             bytes.extend(row.iter().flat_map(|pixel| pixel.to_be_bytes()));
         }
-        figures.frame(self.frame.picture().triangles(), begin.elapsed());
+        figures.frame(&self.frame.picture(), begin.elapsed());
         Ok(RgbImage::from_raw(width, height, bytes).expect("as many bytes as rows and columns"))
     }
 }
