@@ -25,7 +25,7 @@ use crate::{
 ///
 /// It borrows nothing but meshes, `'m`: neither the frame, in which the next picture may be made meanwhile, nor the scanner.
 /// As `&'static mut` it moves through a [`heapless::spsc`] queue to the other core or to an interrupt; a ring of several lets dear
-/// lines borrow time from cheap ones. Takes 12 bytes and the registers for each span: about 40 with the default method and one
+/// lines borrow time from cheap ones. Takes 8 bytes and the registers for each span: about 40 with the default method and one
 /// light.
 #[derive(Clone, Debug)]
 pub struct Baked<'m, const SPANS: usize, S: Shade<LIGHTS, L> = DuffBarycentric, const LIGHTS: usize = 1, L: LightSource = Light> {

@@ -14,7 +14,8 @@ use crate::{
         projection::{Projection, Short, Sight},
     },
     scan::{
-        bucket::{at, Buckets, Sorted, TriangleId},
+        anew::{Anew, Stored, Vertices, Way},
+        bucket::{Buckets, Sorted, TriangleId},
         geometry::{Geometry, Made, Object},
         picture::{Background, Picture, Steps},
         vertex::Vertex,
@@ -27,7 +28,8 @@ use crate::{
 /// 2 a line. Two triangles that follow each other in the mesh as a, b, c and a, c, d take the room of one where they are convex
 /// together on the screen. `TRIANGLES` is 32767 at most; more does not compile. Meshes are borrowed. `OBJECTS` counts objects in
 /// sight; `MADE` triangles and their corners, which take the place of vertices, come from clipping at the near plane and at 1535
-/// pixels from the picture's centre, and from [splitting](Frame::add_split) where a highlight may lie.
+/// pixels from the picture's centre, and from [splitting](Frame::add_split) where a highlight may lie. `V` says whether vertices are
+/// stored, as they are but in a [`LeanFrame`].
 #[derive(Clone, Debug)]
 pub struct Frame<
     'm,
@@ -38,6 +40,7 @@ pub struct Frame<
     const OBJECTS: usize = 4,
     const MADE: usize = 16,
     L: LightSource = Light,
+    V: Vertices = Stored,
 > {
     pub(crate) camera: Camera,
     background: Background,
@@ -48,6 +51,8 @@ pub struct Frame<
     pub(crate) used: usize,
     pub(crate) buckets: Buckets<TRIANGLES, LINES>,
     pub(crate) objects: Vec<Object<'m>, OBJECTS>,
+    /// Their ways to the screen, if vertices are made anew.
+    ways: Vec<V::Held, OBJECTS>,
     /// The lights as each object sees them.
     pub(crate) aims: Vec<[L::Aim; LIGHTS], OBJECTS>,
     pub(crate) made: Vec<Made, MADE>,
@@ -58,6 +63,29 @@ pub struct Frame<
     /// Materials of the objects in sight.
     materials: u16,
 }
+
+/// A frame that stores no vertices: each is projected again whenever a triangle of it is culled, starts, turns, is compared, or set up.
+///
+/// The same pixels for less memory and more time. It takes 4 bytes a triangle or pair, 2 a line, and about 170 an object: for T880 1.8 kB
+/// instead of 7.5, so that all of it fits 7 kB with [`Flat`](crate::Flat), at 1.6 to 1.8 times the cycles. Nothing is clipped: triangles
+/// that would be are left out, and counted as [`Full::Made`]; so objects are best wholly in sight, or out of it. Nothing is
+/// [split](Frame::add_split), and what a line takes is not [bounded](crate::Price).
+///
+/// ```
+/// # use beamshade::{Camera, Full, LeanFrame, Light, Mesh, Pose, Scanner};
+/// # use embedded_graphics::geometry::Size;
+/// # fn draw(teapot: &'static Mesh<'static>) -> Result<(), Full> {
+/// let mut frame = LeanFrame::<320, 240>::new(); // triangles or pairs that face the eye, lines
+/// let mut scanner = Scanner::<48>::new();
+/// frame.begin(&Camera::new(Size::new(240, 240)).at_distance(2.45), &[Light::directional([-0.5, 0.7, 0.6])])?;
+/// frame.add(teapot, &Pose::IDENTITY)?;
+/// let mut lines = scanner.start(frame.picture());
+/// lines.line(0, &mut [0u16; 240]);
+/// # Ok(())
+/// # }
+/// ```
+pub type LeanFrame<'m, const TRIANGLES: usize, const LINES: usize, const LIGHTS: usize = 1, const OBJECTS: usize = 1, L = Light> =
+    Frame<'m, 0, TRIANGLES, LINES, LIGHTS, OBJECTS, 0, L, Anew>;
 
 /// A frame has no room for more; it stays drawable, with what fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,11 +154,13 @@ impl<
         const OBJECTS: usize,
         const MADE: usize,
         L: LightSource,
-    > Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE, L>
+        V: Vertices,
+    > Frame<'m, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE, L, V>
 {
     /// An empty frame, black; all zeros, so that a `static` takes no flash.
     #[must_use]
     pub const fn new() -> Self {
+        const { assert!(V::ARE_STORED || VERTICES == 0, "vertices that are made anew need no room") };
         Self {
             camera: Camera::NONE,
             background: Background::Plain(Color::BLACK),
@@ -140,6 +170,7 @@ impl<
             used: 0,
             buckets: Buckets::new(),
             objects: Vec::new(),
+            ways: Vec::new(),
             aims: Vec::new(),
             made: Vec::new(),
             added: 0,
@@ -165,6 +196,7 @@ impl<
         self.used = 0;
         self.buckets.clear(camera.viewport());
         self.objects.clear();
+        self.ways.clear();
         self.aims.clear();
         self.made.clear();
         self.added = 0;
@@ -206,40 +238,45 @@ impl<
             return Err(Full::Numbers { fitted: first_triangle });
         };
         // Vertices are numbered in 16 bits.
-        let room = VERTICES.min(0x1_0000).saturating_sub(self.used);
+        let room = if V::ARE_STORED { VERTICES.min(0x1_0000) } else { 0x1_0000 }.saturating_sub(self.used);
         if data.positions.len() > room {
             return Err(Full::Vertices { fitted: room as u16 });
         }
         let object = Object { mesh, number, place: self.objects.len() as u16, first_vertex, first_triangle, first_material };
         let aims = self.lights.each_ref().map(|light| light.aim(&self.camera, mesh, pose));
-        if self.objects.push(object).is_err() || self.aims.push(aims).is_err() {
+        let way = if let Sight::Whole(way) = sight { Way::Short(way) } else { Way::Long(projection) };
+        if self.objects.push(object).is_err() || self.aims.push(aims).is_err() || self.ways.push(V::hold(way)).is_err() {
             return Err(Full::Objects { fitted: OBJECTS as u16 });
         }
         self.numbered = numbered as u16;
         self.materials = materials;
-        let vertices = self.vertices.get_mut(usize::from(first_vertex)..).unwrap_or_default();
         self.used += data.positions.len();
-        light::<LIGHTS, L>(&aims, data, vertices);
-        if let Sight::Whole(way) = &sight {
-            place(way, data.positions, vertices);
-        } else {
-            for (vertex, position) in vertices.iter_mut().zip(data.positions) {
-                *vertex = Vertex::new(projection.screen(projection.eye(*position)), vertex.dots);
+        if V::ARE_STORED {
+            let vertices = self.vertices.get_mut(usize::from(first_vertex)..).unwrap_or_default();
+            light::<LIGHTS, L>(&aims, data, vertices);
+            match &way {
+                Way::Short(way) => place(way, data.positions, vertices),
+                Way::Long(way) => {
+                    for (vertex, position) in vertices.iter_mut().zip(data.positions) {
+                        *vertex = Vertex::new(way.screen(way.eye(*position)), vertex.dots);
+                    }
+                }
             }
         }
-        self.keep(&object, &projection, &aims, matches!(sight, Sight::Whole(_)), pairs)
+        self.keep(&object, &way, &projection, &aims, pairs)
     }
 
-    /// Culls, clips and sorts the triangles of an object whose vertices are there.
+    /// Culls, clips and sorts the triangles of an object.
     fn keep(
         &mut self,
         object: &Object<'m>,
+        way: &Way,
         projection: &Projection,
         aims: &[L::Aim; LIGHTS],
-        is_whole: bool,
         pairs: bool,
     ) -> Result<(), Full> {
         let data = object.mesh.data();
+        let anew = |number: u16| data.positions.get(usize::from(number)).map(|position| way.vertex(*position));
         let mut rest = data.triangles;
         let mut id = object.first_triangle;
         let mut tally = Tally::default();
@@ -250,12 +287,24 @@ impl<
             let mut triangles = triangles;
             loop {
                 let vertices = self.vertices.get(usize::from(object.first_vertex)..self.used).unwrap_or_default();
-                let is_cut = |corners: &[u16; 3]| {
-                    at(vertices, *corners).is_some_and(|corners| corners.iter().any(|corner| corner.nearness() == 0))
+                let nearness = |number: u16| {
+                    if V::ARE_STORED {
+                        vertices.get(usize::from(number)).map(|vertex| vertex.nearness())
+                    } else {
+                        anew(number).map(|corner| corner.nearness())
+                    }
                 };
-                let whole = if is_whole { None } else { triangles.iter().position(is_cut) }.unwrap_or(triangles.len());
-                let (run, others) = triangles.split_at_checked(whole).unwrap_or((triangles, &[]));
-                tally.sorted += self.buckets.sort(vertices, run, TriangleId(id), double_sided, pairs);
+                let is_cut = |corners: &[u16; 3]| corners.iter().any(|corner| nearness(*corner) == Some(0));
+                let whole = match way {
+                    Way::Short(_) => None,
+                    Way::Long(_) => triangles.iter().position(is_cut),
+                };
+                let (run, others) = triangles.split_at_checked(whole.unwrap_or(triangles.len())).unwrap_or((triangles, &[]));
+                tally.sorted += if V::ARE_STORED {
+                    self.buckets.sort(vertices, run, TriangleId(id), double_sided, pairs)
+                } else {
+                    self.buckets.sort_anew(anew, run, TriangleId(id), double_sided, pairs)
+                };
                 id += run.len() as u16;
                 let [corners, others @ ..] = others else { break };
                 match self.cut(object, *corners, TriangleId(id), double_sided, projection, aims) {
@@ -351,9 +400,18 @@ impl<
             heads: &self.buckets.heads,
             kept: self.buckets.kept.get(..self.buckets.used).unwrap_or_default(),
             objects: &self.objects,
+            ways: V::ways(&self.ways),
+            anew: V::four,
             made: &self.made,
         };
-        Picture { geometry, background: self.background, intensities: &self.intensities, aims: &self.aims, steps: Steps::NONE }
+        Picture {
+            geometry,
+            background: self.background,
+            intensities: &self.intensities,
+            aims: &self.aims,
+            steps: Steps::NONE,
+            lit_anew: V::lit,
+        }
     }
 }
 
@@ -365,7 +423,8 @@ impl<
         const OBJECTS: usize,
         const MADE: usize,
         L: LightSource,
-    > Default for Frame<'_, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE, L>
+        V: Vertices,
+    > Default for Frame<'_, VERTICES, TRIANGLES, LINES, LIGHTS, OBJECTS, MADE, L, V>
 {
     fn default() -> Self {
         Self::new()

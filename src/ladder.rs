@@ -15,7 +15,6 @@ use crate::{
         active::Active,
         most::{Cover, Known},
         picture::{Picture, Steps},
-        vertex::Vertex,
         visibility::Visibility,
     },
     scanner::Lines,
@@ -176,24 +175,28 @@ impl<const LINES: usize> Plan<LINES> {
         for extent in extents {
             let Some(active) = slots.get_mut(usize::from(extent.slot())) else { continue };
             let overlaps = known.add(active, &here, width);
-            let outline = picture.outline(active.halves.each_ref().map(|half| half.id));
+            let outline = picture.outline(active.ids());
             known.work.turned += u32::from(outline.turns(y));
             known.work.long += outline.long(y);
             let (is_near, columns, count) = (!is_far(active), active.columns_of(width), active.count());
             // Until now no facets were set up: their numbers say what is known of each triangle.
-            for (half, columns) in active.halves.iter_mut().zip(columns).take(count.into()) {
-                if overlaps && half.facet & EXACT_KNOWN == 0 {
-                    half.facet |= EXACT_KNOWN | if half.deepen(geometry) > 0 { EXACT } else { 0 };
+            for (half, columns) in (0..usize::from(count)).zip(columns) {
+                let mut facet = active.facets.get(half).copied().unwrap_or(0);
+                if overlaps && facet & EXACT_KNOWN == 0 {
+                    facet |= EXACT_KNOWN | if active.deepen(half, geometry) > 0 { EXACT } else { 0 };
                 }
-                known.work.exact += u32::from(overlaps && half.facet & EXACT != 0);
-                if !columns.is_empty() && half.facet & SEEN == 0 {
+                known.work.exact += u32::from(overlaps && facet & EXACT != 0);
+                if !columns.is_empty() && facet & SEEN == 0 {
                     known.work.facets += 1;
-                    let lines = picture.lines(half.id).map_or(0, |[start, _, end]| end.saturating_sub(start));
+                    let lines = picture.lines(active.id(half)).map_or(0, |[start, _, end]| end.saturating_sub(start));
                     known.work.asked += u32::from(lines);
                     near_facets += u32::from(is_near);
                 }
                 if !columns.is_empty() && here.is_single(columns) {
-                    half.facet |= SEEN;
+                    facet |= SEEN;
+                }
+                if let Some(room) = active.facets.get_mut(half) {
+                    *room = facet;
                 }
             }
         }
@@ -249,6 +252,6 @@ impl Rungs {
 fn middle<const LIGHTS: usize, L: LightSource>(picture: &Picture<'_, '_, LIGHTS, L>) -> u16 {
     let corners =
         picture.geometry.kept.iter().flat_map(|kept| kept.triangles()).filter_map(|id| picture.geometry.corners(id)).flatten();
-    let (far, near) = corners.map(Vertex::nearness).fold((u32::MAX, 0), |(far, near), w| (far.min(w), near.max(w)));
+    let (far, near) = corners.map(|corner| corner.nearness()).fold((u32::MAX, 0), |(far, near), w| (far.min(w), near.max(w)));
     ((u64::from(far) + u64::from(near)) >> 9) as u16
 }

@@ -93,7 +93,7 @@ pub(crate) mod walk;
 pub mod work;
 
 pub use baked::Baked;
-pub use frame::{Frame, Full};
+pub use frame::{Frame, Full, LeanFrame};
 pub use frozen::Frozen;
 pub use ladder::{Degraded, Degrading, Plan};
 pub use look_ahead::Schedule;

@@ -7,8 +7,8 @@ use crate::work::Work;
 /// A cost is never below what is counted, under the conditions of the price list: one directional light,
 /// [`Spanning`](crate::Spanning), pixels in `Rgb565` or its two bytes, `opt-level = 2` and `lto`, and a core without wait states: what a flash
 /// and its caches add is not in it, nor are interrupts, nor the transfer of rows, nor [smooth lines](crate::Lines::smooth_line), nor lines
-/// for which the scanner has no room. Cycles are those of the Technical Reference Manuals of Cortex-M0+ and Cortex-M4, of the latter
-/// with the most that a branch or a division may take.
+/// for which the scanner has no room, nor vertices that a [`LeanFrame`](crate::LeanFrame) makes anew. Cycles are those of the Technical
+/// Reference Manuals of Cortex-M0+ and Cortex-M4, of the latter with the most that a branch or a division may take.
 ///
 /// Prices are the least ones, and 8 % more (12 % up to the visible spans), at which none of the lines of 1000 random scenes costs less than was counted: `cargo xtask
 /// cost --calibrate` makes them anew, and checks them on 1000 other scenes and on the standard ones. They go with the compiler, and with

@@ -11,13 +11,7 @@ use crate::{
         material::{Color, Material},
     },
     scan::{
-        active::Active,
-        columns::Columns,
-        geometry::Source,
-        list::ActiveList,
-        picture::Picture,
-        resolve::Spanning,
-        table::{Span, Table},
+        active::Active, columns::Columns, geometry::Source, list::ActiveList, picture::Picture, resolve::Spanning, table::Span,
         visibility::Visibility,
     },
     shade::{duff_barycentric::DuffBarycentric, Shade},
@@ -29,7 +23,7 @@ use crate::{
 /// The state of a walk down a picture: up to `ACTIVE` triangles that cross one line, each with a facet of the shading method. Two that the
 /// [frame](crate::Frame) keeps as one are one here, too.
 ///
-/// Owns its memory: about 240 bytes for each of `ACTIVE` with the default method and one light.
+/// Owns its memory: about 200 bytes for each of `ACTIVE` with the default method and one light.
 #[derive(Clone, Debug)]
 pub struct Scanner<
     const ACTIVE: usize,
@@ -40,7 +34,6 @@ pub struct Scanner<
 > {
     list: ActiveList<ACTIVE>,
     facets: [[S::Facet; 2]; ACTIVE],
-    table: Table,
     visibility: V,
 }
 
@@ -50,7 +43,7 @@ impl<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSour
     /// A scanner at rest.
     #[must_use]
     pub const fn new() -> Self {
-        Self { list: ActiveList::new(), facets: [[S::EMPTY; 2]; ACTIVE], table: Table::new(), visibility: V::NEW }
+        Self { list: ActiveList::new(), facets: [[S::EMPTY; 2]; ACTIVE], visibility: V::NEW }
     }
 
     /// Starts on a picture, above its first line, with an empty list of triangles.
@@ -74,7 +67,7 @@ pub struct Line {
     /// Triangles that cross it; two that are kept as one count once.
     pub active: u16,
     /// Visible spans; pieces that clipping or splitting made of one triangle count apart, two triangles that share
-    /// [a facet](Shade::pair) together, but in frozen pictures.
+    /// [a facet](Shade::pair) together, but in frozen pictures, and in smooth and transparent lines.
     pub spans: u16,
     /// Facets set up on it.
     pub facets: u16,
@@ -172,13 +165,13 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
         if !self.seek(y) {
             return;
         }
-        let Scanner { list, table, visibility, .. } = &mut *self.scanner;
+        let Scanner { list, visibility, .. } = &mut *self.scanner;
         let geometry = &self.picture.geometry;
-        visibility.resolve(y, geometry.width(), list, geometry, table, |spans, slots| {
+        visibility.resolve(y, geometry.width(), list, geometry, |spans, slots| {
             for span in spans {
                 let Some(active) = slots.get(usize::from(span.slot())) else { continue };
-                for (half, span) in active.halves.iter().zip(span.halves(active.middle().into())) {
-                    if let (false, Some(source)) = (span.is_empty(), geometry.source(half.id)) {
+                for (id, span) in active.ids().into_iter().zip(span.halves(active.middle().into())) {
+                    if let (false, Some(source)) = (span.is_empty(), geometry.source(id)) {
                         see(span.start() as u16..span.end() as u16, source);
                     }
                 }
@@ -236,12 +229,12 @@ impl<'s, 'm, const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: L
     /// Hands the visible spans of line y, on which the list stands, to whoever takes them, with that material ready.
     #[inline(always)]
     pub(crate) fn walk<T: Take<'m, S, LIGHTS, L>>(&mut self, y: u16, width: usize, material: &'m Material, to: T) -> (Line, T) {
-        let Scanner { list, facets, table, visibility } = &mut *self.scanner;
+        let Scanner { list, facets, visibility } = &mut *self.scanner;
         let picture = &self.picture;
         let look = list.extents().first().map_or(0, |extent| extent.look());
         let line = Line { active: list.extents().len() as u16, dropped: self.dropped, ..Line::NONE };
         let mut walk = Walk::new(picture, facets, &mut self.degraded, look, material, to);
-        visibility.resolve(y, width as i32, list, &picture.geometry, table, |spans, slots| walk.see(spans, slots));
+        visibility.resolve(y, width as i32, list, &picture.geometry, |spans, slots| walk.see(spans, slots));
         let (active, spans, facets) = (line.active.into(), walk.spans.into(), walk.made.into());
         list.tally.add(Work { active, spans, facets, ..walk.tally.work() });
         (Line { spans: walk.spans, facets: walk.made, bent: walk.bent, ..line }, walk.to)

@@ -120,8 +120,8 @@ impl<const ACTIVE: usize> Edges<'_, ACTIVE> {
 
     /// Where the surfaces seen in two spans that meet cut each other.
     fn crossing(&self, left: Span, right: Span) -> Option<Silhouette> {
-        let half = |span: Span| self.list.get(span.slot())?.halves.get(span.half());
-        let pair = [half(left)?, half(right)?];
+        let depth = |span: Span| self.list.get(span.slot())?.depths.get(span.half());
+        let pair = [depth(left)?, depth(right)?];
         Silhouette::crossing(pair, right.start() - 1, self.y)
     }
 

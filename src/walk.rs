@@ -100,16 +100,15 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
     #[inline(never)]
     fn share(&mut self, slot: u16, active: &mut Active) {
         active.sharing = Sharing::Apart;
-        let pair = active.pair().and_then(|first| self.picture.pair(first));
+        let mut room = None;
+        let pair = active.pair().and_then(|first| self.picture.pair(first, &mut room));
         let surface = Surface { material: self.material, intensities: self.picture.intensities };
         let facet = pair.and_then(|pair| S::pair(&pair, &surface));
         if let (Some(facet), Some(facets)) = (facet, self.facets.get_mut(usize::from(slot))) {
             active.sharing = Sharing::Shared;
             *facets = [facet; 2];
             self.made += 1;
-            for half in &mut active.halves {
-                half.facet = self.to.keep(&facet, half.id);
-            }
+            active.facets = active.ids().map(|id| self.to.keep(&facet, id));
         }
     }
 
@@ -118,23 +117,26 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
     fn show<const HALF: usize>(&mut self, span: Span, active: &mut Active) {
         let [_, near] = active.reach();
         let facets = self.facets.get_mut(usize::from(span.slot()));
-        let (Some(half), Some(facet)) = (active.halves.get_mut(HALF), facets.and_then(|facets| facets.get_mut(HALF))) else {
-            return;
-        };
-        if half.facet == 0 {
+        let Some(facet) = facets.and_then(|facets| facets.get_mut(HALF)) else { return };
+        let Some(mut number) = active.facets.get(HALF).copied() else { return };
+        if number == 0 {
+            let id = active.id(HALF);
             let surface = Surface { material: self.material, intensities: self.picture.intensities };
             self.made += 1;
             let mut rung = 0;
             if S::BY_RUNG {
-                let steps = self.picture.steps_of(half.id);
+                let steps = self.picture.steps_of(id);
                 self.tally.add(Work { asked: steps.len() as u32, ..Work::NONE });
                 rung = self.picture.steps.rung(steps, near);
                 self.degraded.count(rung);
             }
-            self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, half.id, rung, &surface, facet));
-            half.facet = self.to.keep(facet, half.id);
+            self.bent += u16::from(set_up::<S, LIGHTS, L>(self.picture, id, rung, &surface, facet));
+            number = self.to.keep(facet, id);
+            if let Some(room) = active.facets.get_mut(HALF) {
+                *room = number;
+            }
         }
-        self.to.span(span, facet, half.facet);
+        self.to.span(span, facet, number);
     }
 
     /// Does not count a span that is empty.
@@ -215,7 +217,8 @@ fn set_up<S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource>(
     surface: &Surface<'_, LIGHTS>,
     facet: &mut S::Facet,
 ) -> bool {
-    let Some(triangle) = picture.triangle(id) else { return false };
+    let mut room = None;
+    let Some(triangle) = picture.triangle(id, &mut room) else { return false };
     let corners;
     let triangle = Triangle { rung, ..triangle };
     let triangle = if surface.material.double_sided && triangle.is_turned() {

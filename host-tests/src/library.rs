@@ -243,10 +243,10 @@ pub fn draw_split<P: Ink, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: FromRefer
 /// The triangles of a picture as they lie on the screen.
 #[must_use]
 pub fn polygons<const LIGHTS: usize, L: LightSource>(picture: &beamshade::Picture<'_, '_, LIGHTS, L>) -> Vec<Polygon> {
-    let polygon = |(source, corners): (beamshade::Source, [&Vertex<LIGHTS>; 3])| Polygon {
+    let polygon = |(source, corners): (beamshade::Source, [Vertex<LIGHTS>; 3])| Polygon {
         owner: owner(source),
         corners: corners.map(|corner| [corner.point().x, corner.point().y]),
-        nearness: corners.map(Vertex::nearness),
+        nearness: corners.map(|corner| corner.nearness()),
     };
     picture.outlines().map(polygon).collect()
 }

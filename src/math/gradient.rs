@@ -10,8 +10,9 @@ use super::{
 
 /// The barycentric coordinates λ1 and λ2 of a screen triangle, as linear functions of the pixel.
 ///
-/// With X and Y counted in pixels from [the anchor](Gradient::anchor), `λi = (at[i] + x[i]·X + y[i]·Y) · ρ`; the numerators
-/// have 14 bits, and one reciprocal serves all values of the triangle.
+/// With X and Y counted in pixels from the one that holds corner 0, the anchor, `λi = (at[i] + x[i]·X + y[i]·Y) · ρ`; the numerators
+/// have 14 bits, and one reciprocal serves all values of the triangle. These are given as functions of the picture's pixels, which
+/// modulo 2³² are as exact as from the anchor.
 #[derive(Clone, Copy, Debug)]
 pub struct Gradient {
     /// Numerators of λ1, λ2 at the centre of the anchor's pixel.
@@ -24,16 +25,11 @@ pub struct Gradient {
     pub short: u32,
     /// See `short`.
     pub exponent: i32,
+    /// The anchor, in pixels.
+    pub anchor: [i32; 2],
 }
 
 impl Gradient {
-    /// The pixel from which X and Y are counted: the one that holds corner 0.
-    #[inline]
-    #[must_use]
-    pub const fn anchor(corner: Point) -> [i16; 2] {
-        [(corner.x >> 8) as i16, (corner.y >> 8) as i16]
-    }
-
     /// The gradient of the triangle; none where it is thinner than about 1/64 pixel, or, with a longest side of more than 32
     /// pixels, than 1/2000 of that side: such a triangle takes its values from its centroid.
     #[inline(always)]
@@ -82,10 +78,10 @@ impl Gradient {
         let exponent = inverse.zeros + up;
         // Small ones have half a unit of `at`; large ones that of each coordinate, in numerators of 2³¹⁻ᶻᵉʳᵒˢ and more for λ = 1.
         let bits = if up < 0 { 16 - inverse.zeros } else { 24 - exponent };
-        Some((Self { at, x, y, short: inverse.short(), exponent }, bits))
+        Some((Self { at, x, y, short: inverse.short(), exponent, anchor: [p0.x >> 8, p0.y >> 8] }, bits))
     }
 
-    /// A value that is `v0` at corner 0, `v0 + d1` and `v0 + d2` at the others: at the anchor, and its increase for a
+    /// A value that is `v0` at corner 0, `v0 + d1` and `v0 + d2` at the others: at pixel (0, 0), and its increase for a
     /// pixel to the right and down, in units finer by 2^`finer` and wrapping.
     ///
     /// The differences have at most 15 bits and a sign.
@@ -94,10 +90,10 @@ impl Gradient {
     pub fn linear(&self, v0: i32, d1: i32, d2: i32, finer: i32) -> [i32; 3] {
         // ρ goes into the differences, in halves of a unit: so the value is off by no more than these, wherever on the triangle.
         let half = (self.short >> 1) as i32;
-        let [d1, d2] = [d1, d2].map(|d| (d * half + (1 << 13)) >> 14);
+        let [d1, d2] = [d1, d2].map(|d| d.wrapping_mul(half).wrapping_add(1 << 13) >> 14);
         let up = self.exponent + finer - 24;
         let along = |[g1, g2]: [i32; 2]| (d1.wrapping_mul(g1).wrapping_add(d2.wrapping_mul(g2)) << up.max(0)) >> (-up).max(0);
-        [v0.wrapping_shl(finer as u32).wrapping_add(along(self.at)), along(self.x), along(self.y)]
+        self.at_origin([v0.wrapping_shl(finer as u32).wrapping_add(along(self.at)), along(self.x), along(self.y)])
     }
 
     /// As [`linear`](Self::linear) for differences of up to 24 bits, exact but for a rounding at the end; by 64-bit products only
@@ -116,6 +112,13 @@ impl Gradient {
                 ((product >> (less - 1)).wrapping_add(1) >> 1) as i32
             })
         };
-        [v0.wrapping_shl(finer as u32).wrapping_add(at), x, y]
+        self.at_origin([v0.wrapping_shl(finer as u32).wrapping_add(at), x, y])
+    }
+
+    /// A plane given at the anchor as one from pixel (0, 0) on.
+    #[inline(always)]
+    const fn at_origin(&self, [at, x, y]: [i32; 3]) -> [i32; 3] {
+        let [ax, ay] = self.anchor;
+        [at.wrapping_sub(x.wrapping_mul(ax)).wrapping_sub(y.wrapping_mul(ay)), x, y]
     }
 }

@@ -22,7 +22,7 @@ pub trait Interpolant: Copy + Debug {
     /// far as it makes use of these; the same everywhere, their mean, for a triangle that has no gradient.
     fn through(gradient: Option<&Gradient>, corners: [i32; 3], middles: [i32; 3]) -> Self;
 
-    /// Along line y, from pixel x on, both counted from the triangle's [anchor](Gradient::anchor).
+    /// Along line y of the picture, from pixel x on.
     fn along(&self, x: i32, y: i32) -> Self::Steps;
 }
 
@@ -35,7 +35,7 @@ pub trait Steps: Copy + Debug {
 /// A value that is linear on the screen, wrapping.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Plane {
-    /// At the anchor.
+    /// At pixel (0, 0).
     pub at: i32,
     /// Its increase for a pixel to the right.
     pub x: i32,

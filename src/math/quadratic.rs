@@ -6,12 +6,11 @@ use super::{
     product::{mul_high, scale},
 };
 
-/// A value that is quadratic on the screen: the coefficients of 1, X, Y, X², XY and Y², all wrapping.
-///
-/// X and Y are counted in pixels from the triangle's [anchor](Gradient::anchor).
+/// A value that is quadratic on the screen: the coefficients of 1, X, Y, X², XY and Y², all wrapping, X and Y being the picture's
+/// pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Quadratic {
-    /// At the anchor.
+    /// At pixel (0, 0).
     pub at: i32,
     /// Coefficient of X.
     pub x: i32,
@@ -50,7 +49,7 @@ impl Quadratic {
     #[inline]
     #[must_use]
     pub fn new(gradient: &Gradient, [v0, v1, v2]: [i32; 3], [b01, b12, b20]: [i32; 3], finer: i32) -> Self {
-        let Gradient { at, x: right, y: down, short, exponent } = *gradient;
+        let Gradient { at, x: right, y: down, short, exponent, anchor } = *gradient;
         // In λ1 and λ2 alone it is v0 + aᵀλ + λᵀCλ/2.
         let a = [v1 - v0 + b01, v2 - v0 + b20];
         let c = [-2 * b01, b12 - b01 - b20, -2 * b20];
@@ -80,6 +79,23 @@ impl Quadratic {
             xx: dot(x, right) >> less,
             xy: dot(x, down).wrapping_add(dot(y, right)) >> less,
             yy: dot(y, down) >> less,
+        }
+        .to_origin(anchor)
+    }
+
+    /// A quadratic counted from that pixel as one counted from pixel (0, 0).
+    #[inline(always)]
+    const fn to_origin(self, [ax, ay]: [i32; 2]) -> Self {
+        let Self { at, x, y, xx, xy, yy } = self;
+        let (xx_ax, yy_ay) = (xx.wrapping_mul(ax), yy.wrapping_mul(ay));
+        let (half_x, half_y) = (x.wrapping_sub(xx_ax).wrapping_sub(xy.wrapping_mul(ay)), y.wrapping_sub(yy_ay));
+        Self {
+            at: at.wrapping_sub(half_x.wrapping_mul(ax)).wrapping_sub(half_y.wrapping_mul(ay)),
+            x: half_x.wrapping_sub(xx_ax),
+            y: half_y.wrapping_sub(yy_ay).wrapping_sub(xy.wrapping_mul(ax)),
+            xx,
+            xy,
+            yy,
         }
     }
 
@@ -140,7 +156,7 @@ impl From<Plane> for Quadratic {
 }
 
 impl Differences {
-    /// At least as much as the value reaches on this pixel and the `count` next ones.
+    /// At least as much as the value reaches on this pixel and the `count` next ones, if it stays between −3 · 2²⁹ and 2²⁹.
     #[inline(always)]
     #[must_use]
     pub const fn most(&self, count: i32) -> i32 {
@@ -148,7 +164,7 @@ impl Differences {
         let end = self.value.wrapping_add(count.wrapping_mul(self.step.wrapping_add(half.wrapping_mul(count - 1))));
         let ends = if end > self.value { end } else { self.value };
         // Where it is curved downwards, it is above the chord by at most a quarter of that.
-        let bow = half.wrapping_mul(count).wrapping_mul(count) >> 2;
+        let bow = (half.wrapping_mul(count) >> 2).wrapping_mul(count);
         ends.wrapping_sub(bow & (bow >> 31))
     }
 
@@ -185,4 +201,36 @@ const fn dot([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i32 {
 #[inline(always)]
 const fn times([c11, c12, c22]: [i32; 3], vector: [i32; 2]) -> [i32; 2] {
     [dot([c11, c12], vector), dot([c12, c22], vector)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Quadratics whose values on the line are as heights of highlights may be.
+    #[test]
+    fn none_reaches_more_than_the_most() {
+        let mut state = 1_u64;
+        let mut random = |below: i64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((i128::from(state >> 33) * i128::from(2 * below)) >> 31) as i64 - below
+        };
+        let mut seen = 0;
+        for round in 0..200_000 {
+            let count = 1 + (random(512) + 512) * (round % 3) / 2;
+            let (value, rise, bow) = (random(3 << 29), random(3 << 29), random(3 << 31));
+            let half = -(bow / (count * count));
+            let step = rise / count - half * (count - 1);
+            let at = |x: i64| value + x * step + half * x * (x - 1);
+            let reached = (0..=count).map(at).max().unwrap_or(0);
+            let fits = |value: i64| i32::try_from(value).is_ok();
+            if (0..=count).any(|x| !(-(3 << 29)..=1 << 29).contains(&at(x))) || !fits(step) || !fits(2 * half) {
+                continue;
+            }
+            seen += 1;
+            let along = Differences { value: value as i32, step: step as i32, second: (2 * half) as i32 };
+            assert!(i64::from(along.most(count as i32)) >= reached, "{along:?} {count}");
+        }
+        assert!(seen > 20_000, "{seen}");
+    }
 }

@@ -33,7 +33,7 @@ pub const fn first_at(coordinate: i32) -> i32 {
 #[inline(always)]
 #[must_use]
 pub const fn center(pixel: i32) -> i32 {
-    pixel * SUBPIXELS + SUBPIXELS / 2
+    pixel.wrapping_mul(SUBPIXELS).wrapping_add(SUBPIXELS / 2)
 }
 
 /// Whether a distance is short enough for products of two to fit 32 bits: below 128 pixels.

@@ -215,6 +215,46 @@ impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
         sorted
     }
 
+    /// The same for triangles whose vertices are not stored.
+    #[inline(never)]
+    pub(crate) fn sort_anew(
+        &mut self,
+        vertex: impl Fn(u16) -> Option<Vertex<0>>,
+        triangles: &[[u16; 3]],
+        first: TriangleId,
+        double_sided: bool,
+        pairs: bool,
+    ) -> Sorted {
+        let mut sorted = Sorted::default();
+        let (mut rest, mut id) = (triangles, first);
+        // Triangles that follow each other in a mesh share corners, most of them.
+        let mut last: [Option<(u16, Vertex<0>)>; 4] = [None; 4];
+        while let [[a, b, c], others @ ..] = rest {
+            let fourth = match others {
+                [[e, f, d], ..] if pairs && a == e && c == f => Some(*d),
+                _ => None,
+            };
+            let (triangles, after): (&[_], _) = if fourth.is_some() {
+                (&[[0, 1, 2], [0, 2, 3]], others.get(1..).unwrap_or_default())
+            } else {
+                (&[[0, 1, 2]], others)
+            };
+            let find = |corner: u16| {
+                let known = last.iter().flatten().find(|(number, _)| *number == corner);
+                known.copied().or_else(|| Some((corner, vertex(corner)?)))
+            };
+            let (a, b, c) = (find(*a), find(*b), find(*c));
+            let corners = [a, b, c, fourth.map_or(c, find)];
+            if let [Some((_, a)), Some((_, b)), Some((_, c)), Some((_, d))] = corners {
+                sorted += self.sort(&[a, b, c, d], triangles, id, double_sided, pairs);
+            }
+            last = corners;
+            id = TriangleId(id.0.wrapping_add(triangles.len() as u16));
+            rest = after;
+        }
+        sorted
+    }
+
     /// Keeps a triangle, or a pair, if it can cover a pixel.
     #[inline(never)]
     fn keep<const LIGHTS: usize>(&mut self, corners: [&Vertex<LIGHTS>; 4], triangle: TriangleId, is_pair: bool) -> Sorted {
@@ -255,7 +295,7 @@ fn fourth<const LIGHTS: usize>(vertices: &[Vertex<LIGHTS>], [a, _, c]: [u16; 3],
 /// The line on which a quadrilateral starts in a picture of that size; none if it cannot cover a pixel.
 #[inline(always)]
 fn first_line<const LIGHTS: usize>(corners: [&Vertex<LIGHTS>; 4], size: Size) -> Option<usize> {
-    let [a, b, c, d] = corners.map(Vertex::pixel);
+    let [a, b, c, d] = corners.map(|corner| corner.pixel());
     let [x, y] = [[a.x, b.x, c.x, d.x], [a.y, b.y, c.y, d.y]].map(|borders| {
         let [a, b, c, d] = borders;
         [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]

@@ -19,6 +19,9 @@ impl Course {
     pub(super) const BEGINS: u8 = 16;
     /// Of two triangles, the second one is left of the diagonal.
     pub(super) const SECOND_LEFT: u8 = 32;
+    /// The next corner is the last one, or meets the same line first; so is the one after it.
+    pub(super) const LAST: u8 = 64;
+    pub(super) const LAST_AFTER: u8 = 128;
 
     /// That of a quadrilateral, below its top corner, by the places of that and of the next two in the order of the mesh.
     #[inline(always)]
@@ -82,9 +85,16 @@ impl Course {
         self.is(Self::LEFT) == self.is(Self::LEFT_AFTER)
     }
 
+    /// With the next corner, and the one after it, as the last one where they are.
+    #[inline(always)]
+    pub(super) const fn ending(self, [next, after]: [bool; 2]) -> Self {
+        Self(self.0 | if next { Self::LAST } else { 0 } | if after { Self::LAST_AFTER } else { 0 })
+    }
+
     /// From the next corner on.
     #[inline(always)]
     pub(super) const fn next(self) -> Self {
-        Self(self.0 & Self::LEFT_AFTER | self.0 >> 1 & (Self::LEFT | Self::ENDS))
+        let (stays, comes) = (Self::LEFT_AFTER | Self::SECOND_LEFT, Self::LEFT | Self::ENDS | Self::LAST);
+        Self(self.0 & stays | self.0 >> 1 & comes | Self::LAST_AFTER)
     }
 }

@@ -41,11 +41,10 @@ impl<const WIDTH: usize> Visibility for DepthLine<WIDTH> {
         width: i32,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table,
         mut see: impl FnMut(&[Span], &mut [Active; N]),
     ) {
         let (extents, slots) = list.split();
-        table.clear();
+        let mut table = Table::default();
         let mut from = 0;
         while from < width {
             let piece = [from, width.min(from + WIDTH as i32)];
@@ -100,20 +99,17 @@ impl<const WIDTH: usize> DepthLine<WIDTH> {
                 let range = (start - from).max(0) as usize..(span.end().min(end) - from).max(0) as usize;
                 let Some(depths) = self.depths.get_mut(range.clone()).filter(|depths| !depths.is_empty()) else { continue };
                 let Some(owners) = self.owners.get_mut(range.clone()) else { continue };
-                let Some(active) = slots.get_mut(usize::from(extent.slot())).and_then(|active| active.halves.get_mut(half))
-                else {
-                    continue;
-                };
-                if !active.deep {
-                    active.deepen(geometry);
+                let Some(active) = slots.get_mut(usize::from(extent.slot())) else { continue };
+                if active.depths.get(half).is_some_and(|depth| !depth.is_known()) {
+                    active.deepen(half, geometry);
                 }
-                let (id, step) = (active.id, active.depth_step() as u32);
-                let mut depth = (active.depth_at(start, line) as u32).wrapping_add(1 << 31);
+                let Some(plane) = active.depths.get(half) else { continue };
+                let (id, step) = (active.id(half), plane.step() as u32);
+                let mut depth = (plane.at(start, line) as u32).wrapping_add(1 << 31);
                 let wins_against = |owner: u16, x: i32| {
                     let extent = extents.get(usize::from(owner).wrapping_sub(1));
                     let seen = extent.and_then(|extent| slots.get(usize::from(extent.slot())));
-                    let seen = seen.and_then(|active| active.halves.get(usize::from(i32::from(active.middle()) <= x)));
-                    seen.is_none_or(|seen| wins(id, seen.id, geometry))
+                    seen.is_none_or(|active| wins(id, active.id(usize::from(i32::from(active.middle()) <= x)), geometry))
                 };
                 for ((nearest, seen), x) in depths.iter_mut().zip(owners).zip(start..) {
                     if depth >= *nearest && (depth > *nearest || wins_against(*seen, x)) {

@@ -10,7 +10,10 @@ use crate::math::{
 ///
 /// A DDA in 1/2⁴⁸ pixel. An edge of height `dy` meets the centres of lines at multiples of 1/(256·dy) pixel. What rounding
 /// takes from `at` is more than nothing and, all lines together, at most one such part: so it is always the right pixel.
+///
+/// Numbers of 64 bits are read word by word; so an edge takes no more room than its words do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(Rust, packed(4))]
 pub struct Edge {
     /// One pixel right of the edge, counted from the centre of pixel 0, in 1/2⁴⁸ pixel, rounded down.
     at: i64,
@@ -30,7 +33,7 @@ impl Edge {
     #[inline(never)]
     pub fn set<const LIGHTS: usize>(&mut self, top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) {
         let (top, bottom) = (top.point(), bottom.point());
-        let (dx, dy, down) = (bottom.x - top.x, bottom.y - top.y, center(line) - top.y);
+        let (dx, dy, down) = (bottom.x - top.x, bottom.y - top.y, center(line).wrapping_sub(top.y));
         if is_long(dx, dy, down) {
             return self.set_long(top.x, dx, dy, down);
         }
@@ -39,7 +42,7 @@ impl Edge {
         // Subpixels, and 1/2¹⁶ of them: up to 2⁻²⁴ pixel too small. On fewer than 128 lines, `step` takes no more than that.
         let x = top.x + whole * down as i32 + SUBPIXELS / 2;
         let part = high * down + ((low * down) >> 16);
-        self.at = ((i64::from(x) << 40) + (i64::from(part) << 24)).wrapping_sub(1);
+        self.at = (i64::from(x) << 40).wrapping_add(i64::from(part) << 24).wrapping_sub(1);
         self.step = (i64::from((whole << 16) + high as i32) << 32) + (i64::from(low) << 16);
     }
 
@@ -242,12 +245,12 @@ mod tests {
     #[test]
     fn any_corners_and_lines_will_do() {
         let far = (1 << 19) - 1;
-        for ty in [-far, -1, 0, 1, 255, 32_767, far] {
-            for by in [-far, -1, 0, 1, 255, 32_767, far] {
-                for x in [-far, -32_768, 0, 1, 32_767, far] {
-                    for line in [0, 1, 127, 1023, 0xffff] {
+        for ty in [-far, -1, 0, 1, 128, 255, 32_767, far] {
+            for by in [-far, -1, 0, 1, 130, 255, 32_767, far] {
+                for x in [-far, -32_768, 0, 1, 383, 32_767, far] {
+                    for line in [0, 1, 2, 127, 1023, 0xffff, i32::MAX] {
                         let mut edge = Edge::NONE;
-                        edge.set(&vertex(0, ty), &vertex(x, by), line);
+                        edge.set(&vertex(383, ty), &vertex(383 + x, by), line);
                         edge.step();
                     }
                 }

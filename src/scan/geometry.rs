@@ -3,6 +3,7 @@
 use embedded_graphics::primitives::Rectangle;
 
 use super::{
+    anew::Way,
     bucket::{Kept, Starting, TriangleId},
     vertex::Vertex,
 };
@@ -44,12 +45,19 @@ pub struct Made {
     pub(crate) weights: [Weights; 3],
 }
 
+/// Makes four vertices anew, without light, by their numbers in the frame.
+pub(crate) type Four<const LIGHTS: usize> = fn(&Geometry<'_, '_, LIGHTS>, [u16; 4]) -> Option<[Vertex<LIGHTS>; 4]>;
+
 /// What of a frame is seen by the scan: projected vertices, the triangles that face the eye by the line on which they start,
 /// and where these come from. A view: copying it copies no data.
 #[derive(Clone, Copy, Debug)]
 pub struct Geometry<'f, 'm, const LIGHTS: usize = 1> {
     pub(crate) viewport: Rectangle,
+    /// Those that are stored, all or none.
     pub(crate) vertices: &'f [Vertex<LIGHTS>],
+    /// For each object, how its vertices are made anew, if none is stored; and what makes four of them.
+    pub(crate) ways: &'f [Way],
+    pub(crate) anew: Four<LIGHTS>,
     /// For each line, one more than the place of the first of the kept triangles that start there, or 0.
     pub(crate) heads: &'f [u16],
     pub(crate) kept: &'f [Kept],
@@ -130,15 +138,44 @@ impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
 
     /// A triangle's corners.
     #[inline]
-    pub(crate) fn corners(&self, id: TriangleId) -> Option<[&'f Vertex<LIGHTS>; 3]> {
+    pub(crate) fn corners(&self, id: TriangleId) -> Option<[Vertex<LIGHTS>; 3]> {
         let [a, b, c] = self.numbers(id)?.corners;
-        Some([self.vertex(a)?, self.vertex(b)?, self.vertex(c)?])
+        let mut room = None;
+        let [a, b, c, _] = self.four([a, b, c, c], &mut room)?;
+        Some([*a, *b, *c])
     }
 
-    /// A vertex by its number in the frame.
-    #[inline]
-    pub(crate) fn vertex(&self, number: u16) -> Option<&'f Vertex<LIGHTS>> {
-        self.vertices.get(usize::from(number))
+    /// Four vertices by their numbers in the frame, if they are stored.
+    #[inline(always)]
+    pub(crate) fn stored(&self, [a, b, c, d]: [u16; 4]) -> Option<[&'f Vertex<LIGHTS>; 4]> {
+        let vertex = |number: u16| self.vertices.get(usize::from(number));
+        Some([vertex(a)?, vertex(b)?, vertex(c)?, vertex(d)?])
+    }
+
+    /// Four vertices by their numbers in the frame: where they are stored or, made anew and without light, in `room`.
+    #[inline(always)]
+    pub(crate) fn four<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<[&'v Vertex<LIGHTS>; 4]>
+    where
+        'f: 'v,
+    {
+        match self.stored(numbers) {
+            Some(stored) => Some(stored),
+            None => Some(self.fill(numbers, room)?.each_ref()),
+        }
+    }
+
+    /// Makes four vertices anew, in `room`.
+    #[cold]
+    #[inline(never)]
+    fn fill<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<&'v [Vertex<LIGHTS>; 4]> {
+        *room = (self.anew)(self, numbers);
+        room.as_ref()
+    }
+
+    /// The object that a vertex is of, and its number in the mesh.
+    pub(crate) fn origin(&self, number: u16) -> Option<(&'f Object<'m>, usize)> {
+        let object = self.last(|object| object.first_vertex <= number)?;
+        Some((object, number.wrapping_sub(object.first_vertex).into()))
     }
 }
 

@@ -9,7 +9,6 @@ use super::{
     bucket::{Kept, TriangleId},
     geometry::Geometry,
     table::Span,
-    vertex::Vertex,
 };
 use crate::work::{Tally, Work};
 
@@ -29,6 +28,7 @@ pub struct ActiveList<const N: usize> {
 impl<const N: usize> ActiveList<N> {
     /// A list that is to be [cleared](Self::clear) before its first use: all zeros, so that a `static` takes no flash.
     pub(crate) const fn new() -> Self {
+        const { assert!(N < 1 << 15, "slots are numbered in 15 bits") };
         Self { slots: [Active::NONE; N], order: Vec::new(), free: 0, tally: Tally::NONE }
     }
 
@@ -37,7 +37,7 @@ impl<const N: usize> ActiveList<N> {
         self.order.clear();
         self.free = 0;
         for (slot, next) in self.slots.iter_mut().zip(1..) {
-            slot.next = next;
+            slot.free(next);
         }
     }
 
@@ -69,7 +69,7 @@ impl<const N: usize> ActiveList<N> {
     pub(crate) fn advance<const L: usize>(&mut self, line: u16, geometry: &Geometry<'_, '_, L>) -> u16 {
         self.tally.add(Work { stepped: self.order.len() as u32, ..Work::NONE });
         let free = self.free;
-        self.step(line.into(), geometry.vertices);
+        self.step(line.into(), geometry);
         if self.free != free {
             self.order.retain(|span| !span.is_none());
         }
@@ -79,13 +79,13 @@ impl<const N: usize> ActiveList<N> {
 
     /// Steps all to line `line`, and marks those that ended.
     #[inline(never)]
-    fn step<const L: usize>(&mut self, line: u32, vertices: &[Vertex<L>]) {
+    fn step<const L: usize>(&mut self, line: u32, geometry: &Geometry<'_, '_, L>) {
         for span in &mut self.order {
             let Some(active) = self.slots.get_mut(usize::from(span.slot())) else { break };
             let turns = active.turns(line);
-            if turns && active.ends(line) {
+            if turns && active.ends() {
                 self.tally.add(Work { ended: 1, ..Work::NONE });
-                active.next = self.free;
+                active.free(self.free);
                 self.free = span.slot();
                 *span = Span::NONE;
                 continue;
@@ -93,7 +93,7 @@ impl<const N: usize> ActiveList<N> {
             active.step();
             if turns {
                 self.tally.add(Work { turned: 1, ..Work::NONE });
-                active.bend(line, vertices);
+                active.bend(line, geometry);
             }
             let (start, end) = active.extent();
             *span = span.with(start.into(), end.into());
@@ -140,8 +140,9 @@ impl<const N: usize> ActiveList<N> {
             }
             let slot = self.free;
             let Some(active) = self.slots.get_mut(usize::from(slot)) else { continue };
+            let free = active.next_free();
             if let Some(look) = active.begin(kept, line, geometry) {
-                self.free = active.next;
+                self.free = free;
                 let (start, end) = active.extent();
                 let span = Span::new(start, end, slot, look);
                 let misplaced = new.last().is_some_and(|last: &Span| last.is_after(span));
@@ -178,7 +179,7 @@ impl<const N: usize> ActiveList<N> {
         }
         let slot = self.order.remove(place).slot();
         let Some(active) = self.slots.get_mut(usize::from(slot)) else { return 0 };
-        active.next = self.free;
+        active.free(self.free);
         self.free = slot;
         active.count()
     }
@@ -191,13 +192,13 @@ impl<const N: usize> ActiveList<N> {
         let rank = |ids: [TriangleId; 2]| {
             let corners = ids.into_iter().filter_map(|id| geometry.corners(id)).flatten();
             let [one, other] = ids;
-            (corners.map(Vertex::nearness).max().unwrap_or(0), core::cmp::Reverse(one.min(other)))
+            (corners.map(|corner| corner.nearness()).max().unwrap_or(0), core::cmp::Reverse(one.min(other)))
         };
         let mut least = rank(kept.ends());
         let mut victim = None;
         for (place, span) in self.order.iter().enumerate() {
             let Some(active) = self.get(span.slot()) else { continue };
-            let other = rank(active.halves.each_ref().map(|half| half.id));
+            let other = rank(active.ids());
             if other < least {
                 (least, victim) = (other, Some(place));
             }

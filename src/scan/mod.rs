@@ -1,9 +1,11 @@
 //! From a picture's triangles to the span table of a line.
 
 pub mod active;
+pub mod anew;
 pub mod bucket;
 pub mod columns;
 pub(crate) mod course;
+pub mod depth;
 pub mod depth_line;
 pub mod edge;
 pub mod geometry;

@@ -44,15 +44,15 @@ impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
             known.work.turned += u32::from(!starts && outline.turns(y));
             known.work.long += outline.long(y);
             if known.add(&active, &here, width) {
-                known.work.exact += active.halves.iter_mut().take(kept.count()).map(|half| half.deepen(geometry)).sum::<u32>();
+                known.work.exact += (0..kept.count()).map(|half| active.deepen(half, geometry)).sum::<u32>();
             }
             let before = y.checked_sub(1).and_then(|above| self.crossing_of(kept, above));
             let before = before.map_or([0..0, 0..0], |before| before.active.columns_of(width));
-            for ((half, columns), before) in active.halves.iter().zip(active.columns_of(width)).zip(before) {
+            for ((id, columns), before) in active.ids().into_iter().zip(active.columns_of(width)).zip(before) {
                 let was_seen = !before.is_empty() && above.is_single(before);
                 if !columns.is_empty() && !was_seen {
                     known.work.facets += 1;
-                    known.work.asked += self.lines(half.id).map_or(0, |[start, _, end]| u32::from(end - start));
+                    known.work.asked += self.lines(id).map_or(0, |[start, _, end]| u32::from(end - start));
                 }
             }
         }
@@ -88,8 +88,8 @@ impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
     }
 
     /// The outline of a triangle, or of two that are a pair.
-    pub(crate) fn outline(&self, [one, other]: [TriangleId; 2]) -> Outline<'_, LIGHTS> {
-        let corners = |id| self.geometry.corners(id).unwrap_or([&Vertex::NONE; 3]);
+    pub(crate) fn outline(&self, [one, other]: [TriangleId; 2]) -> Outline<LIGHTS> {
+        let corners = |id| self.geometry.corners(id).unwrap_or([Vertex::NONE; 3]);
         let ([a, b, c], [_, _, d]) = (corners(one.min(other)), corners(one.max(other)));
         Outline([a, b, c, d])
     }
@@ -123,9 +123,9 @@ impl<const LIGHTS: usize, L: LightSource> Picture<'_, '_, LIGHTS, L> {
 }
 
 /// The corners of a triangle, or of a pair, in the order of the mesh; of a triangle, the last one twice.
-pub(crate) struct Outline<'f, const LIGHTS: usize>([&'f Vertex<LIGHTS>; 4]);
+pub(crate) struct Outline<const LIGHTS: usize>([Vertex<LIGHTS>; 4]);
 
-impl<const LIGHTS: usize> Outline<'_, LIGHTS> {
+impl<const LIGHTS: usize> Outline<LIGHTS> {
     /// Whether the line is the first one below a corner that is neither the first nor the last.
     pub(crate) fn turns(&self, line: u16) -> bool {
         let rows = self.0.map(|corner| corner.pixel().y);
@@ -141,7 +141,7 @@ impl<const LIGHTS: usize> Outline<'_, LIGHTS> {
             let (top, bottom) = if one.point().y <= other.point().y { (one, other) } else { (other, one) };
             top.pixel().y.max(0) == line && line < bottom.pixel().y && Edge::is_long(top, bottom, line)
         };
-        [(a, b), (b, c), (c, d), (d, a), (c, a)].iter().filter(|edge| is_long(edge)).count() as u32
+        [(&a, &b), (&b, &c), (&c, &d), (&d, &a), (&c, &a)].iter().filter(|edge| is_long(edge)).count() as u32
     }
 }
 

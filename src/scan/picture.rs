@@ -58,7 +58,12 @@ pub struct Picture<'f, 'm, const LIGHTS: usize = 1, L: LightSource = Light> {
     /// For each object, the lights as it sees them.
     pub(crate) aims: &'f [[L::Aim; LIGHTS]],
     pub(crate) steps: Steps<'f>,
+    /// Makes vertices anew, with light.
+    pub(crate) lit_anew: Lit<LIGHTS, L>,
 }
+
+/// Makes four vertices anew by their numbers in the frame.
+pub(crate) type Lit<const LIGHTS: usize, L> = fn(&Picture<'_, '_, LIGHTS, L>, [u16; 4]) -> Option<[Vertex<LIGHTS>; 4]>;
 
 /// How far each line is down a ladder.
 #[derive(Clone, Copy, Debug)]
@@ -73,8 +78,9 @@ impl Steps<'_> {
     /// Nothing is degraded.
     pub(crate) const NONE: Self = Self { steps: &[], middle: 0 };
 
-    /// The rung of a triangle whose nearest corner, or that of the pair that it is kept in, is so near, the upper 16 bits: that of the line that is farthest down the ladder, of all that it crosses, so that it is set up once
-    /// and the same in whatever order lines are drawn.
+    /// The rung of a triangle whose nearest corner, or that of the pair that it is kept in, is so near, the upper 16 bits: that of
+    /// the line that is farthest down the ladder, of all that it crosses, so that it is set up once and the same in whatever order
+    /// lines are drawn.
     pub(crate) fn rung(&self, lines: &[u8], near: i32) -> u8 {
         let step = lines.iter().fold(0, |most, step| most.max(*step));
         (step + u8::from(near <= i32::from(self.middle))) >> 1
@@ -102,7 +108,7 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
 
     /// Those triangles with their corners, in the order of their first addition to the frame; of one that was clipped or split, its
     /// parts.
-    pub fn outlines(&self) -> impl Iterator<Item = (Source, [&'f Vertex<LIGHTS>; 3])> {
+    pub fn outlines(&self) -> impl Iterator<Item = (Source, [Vertex<LIGHTS>; 3])> + use<'_, 'f, LIGHTS, L> {
         let geometry = self.geometry;
         geometry
             .kept
@@ -111,24 +117,34 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
             .filter_map(move |id| Some((geometry.source(id)?, geometry.corners(id)?)))
     }
 
-    /// A triangle, fetched.
+    /// A triangle, fetched; its corners are in `room` if none is stored.
     #[inline]
-    pub(crate) fn triangle(&self, id: TriangleId) -> Option<Triangle<'f, LIGHTS, L>> {
+    pub(crate) fn triangle<'v>(
+        &self,
+        id: TriangleId,
+        room: &'v mut Option<[Vertex<LIGHTS>; 4]>,
+    ) -> Option<Triangle<'v, LIGHTS, L>>
+    where
+        'f: 'v,
+    {
         let numbers = self.geometry.numbers(id)?;
         let [a, b, c] = numbers.corners;
-        let vertex = |number| self.geometry.vertex(number);
         let aims = self.aims.get(usize::from(numbers.object.place))?;
         let nearness = match numbers.part {
-            Some(made) if L::IN_SCENE => self.geometry.corners(made.whole)?.map(Vertex::nearness),
+            Some(made) if L::IN_SCENE => self.geometry.corners(made.whole)?.map(|corner| corner.nearness()),
             _ => [0; 3],
         };
-        let corners = [vertex(a)?, vertex(b)?, vertex(c)?];
+        let [a, b, c, _] = self.lit([a, b, c, c], room)?;
+        let corners = [a, b, c];
         Some(Triangle { corners, edges: numbers.edges, aims, numbers, nearness, turned: false, rung: 0 })
     }
 
-    /// A triangle of a mesh and the next one, which are kept as one, fetched.
+    /// A triangle of a mesh and the next one, which are kept as one, fetched; its corners are in `room` if none is stored.
     #[inline]
-    pub(crate) fn pair(&self, first: TriangleId) -> Option<Pair<'f, LIGHTS>> {
+    pub(crate) fn pair<'v>(&self, first: TriangleId, room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<Pair<'v, LIGHTS>>
+    where
+        'f: 'v,
+    {
         let (object, triangle) = self.geometry.object(first)?;
         let (data, first) = (object.mesh.data(), usize::from(triangle));
         let (Some([[a, b, c], [_, _, d]]), Some([one, other])) =
@@ -136,8 +152,28 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
         else {
             return None;
         };
-        let vertex = |number: u16| self.geometry.vertex(number.wrapping_add(object.first_vertex));
-        Some(Pair { corners: [vertex(*a)?, vertex(*b)?, vertex(*c)?, vertex(*d)?], edges: [one, other] })
+        let numbers = [*a, *b, *c, *d].map(|corner| corner.wrapping_add(object.first_vertex));
+        Some(Pair { corners: self.lit(numbers, room)?, edges: [one, other] })
+    }
+
+    /// Four vertices by their numbers in the frame: where they are stored or, made anew, in `room`.
+    #[inline(always)]
+    fn lit<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<[&'v Vertex<LIGHTS>; 4]>
+    where
+        'f: 'v,
+    {
+        match self.geometry.stored(numbers) {
+            Some(stored) => Some(stored),
+            None => Some(self.fill(numbers, room)?.each_ref()),
+        }
+    }
+
+    /// Makes four vertices anew, in `room`.
+    #[cold]
+    #[inline(never)]
+    fn fill<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<&'v [Vertex<LIGHTS>; 4]> {
+        *room = (self.lit_anew)(self, numbers);
+        room.as_ref()
     }
 }
 

@@ -28,10 +28,9 @@ impl Visibility for Spanning {
         width: i32,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table,
         see: impl FnMut(&[Span], &mut [Active; N]),
     ) {
-        Sweep::new(line, width).run(list, geometry, table, see);
+        Sweep::new(line, width).run(list, geometry, see);
     }
 }
 
@@ -41,8 +40,8 @@ impl Visibility for Spanning {
 /// the one in front ends or is crossed: not at each pixel, and not at all where one triangle as a whole is nearer than the other.
 /// A crossing is the first pixel where the other one is in front; equal depths go to the lower (object, triangle).
 ///
-/// A pair of triangles is one here, of two planes: left of its diagonal, and right of it. Triangles go by their place in the list, whose extents are in order: those that have not begun start at x or after it, save
-/// left of the picture.
+/// A pair of triangles is one here, of two planes: left of its diagonal, and right of it. Triangles go by their place in the list,
+/// whose extents are in order: those that have not begun start at x or after it, save left of the picture.
 #[derive(Clone, Debug)]
 struct Sweep<const N: usize> {
     line: u16,
@@ -67,10 +66,10 @@ impl<const N: usize> Sweep<N> {
         mut self,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table,
         mut see: impl FnMut(&[Span], &mut [Active; N]),
     ) {
         let (extents, slots) = list.split();
+        let mut table = Table::default();
         while self.x < self.width {
             let run = self.alone(extents);
             if !run.is_empty() {
@@ -81,7 +80,7 @@ impl<const N: usize> Sweep<N> {
             }
             while self.x < self.width && !self.open.is_empty() {
                 table.clear();
-                self.covered(extents, slots, geometry, table);
+                self.covered(extents, slots, geometry, &mut table);
                 see(table.spans(), slots);
             }
         }
@@ -305,23 +304,25 @@ impl<const N: usize> Sweep<N> {
         geometry: &Geometry<'_, '_, L>,
     ) -> (bool, i32) {
         const NEVER: (bool, i32) = (false, i32::MAX);
-        for (slot, half) in [one, two] {
-            match slots.get_mut(slot).and_then(|active| active.halves.get_mut(half)) {
-                Some(half) if !half.deep => {
-                    let exact = half.deepen(geometry);
-                    self.tally.add(Work { deepened: 1, exact, ..Work::NONE });
-                }
-                _ => {}
+        let [Some(other), Some(front)] = [one, two].map(|(slot, half)| {
+            let active = slots.get_mut(slot)?;
+            if !active.depths.get(half)?.is_known() {
+                let exact = active.deepen(half, geometry);
+                self.tally.add(Work { deepened: 1, exact, ..Work::NONE });
             }
-        }
-        let of = |(slot, half): (usize, usize)| slots.get(slot).and_then(|active| active.halves.get(half));
-        let (Some(other), Some(front)) = (of(one), of(two)) else { return NEVER };
+            active.depths.get(half).copied()
+        }) else {
+            return NEVER;
+        };
         let Range { start: x, end } = pixels;
         let last = end - 1;
-        let wins = || wins(other.id, front.id, geometry);
+        let wins = || {
+            let [one, two] = [one, two].map(|(slot, half)| slots.get(slot).map(|active| active.id(half)));
+            one.zip(two).is_some_and(|(one, two)| wins(one, two, geometry))
+        };
         let is_ahead = |lead: i32| lead > 0 || lead == 0 && wins();
-        let lead = other.depth_at(x, self.line).wrapping_sub(front.depth_at(x, self.line));
-        let step = other.depth_step().wrapping_sub(front.depth_step());
+        let lead = other.at(x, self.line).wrapping_sub(front.at(x, self.line));
+        let step = other.step().wrapping_sub(front.step());
         let ahead = is_ahead(lead);
         if is_ahead(lead.wrapping_add(step.wrapping_mul(last - x))) == ahead {
             return (ahead, i32::MAX);

@@ -1,6 +1,6 @@
 //! How an edge cuts the pixels of a line.
 
-use super::{active::Half, edge::Edge};
+use super::{depth::Depth, edge::Edge};
 use crate::math::{
     reciprocal::Reciprocal,
     screen::{center, SUBPIXELS},
@@ -44,11 +44,11 @@ impl Silhouette {
     /// Where two surfaces cut each other between a pixel, where the left one is in front, and the next one; none if they do not.
     ///
     /// Their depths are planes, so that they cut along a straight line: where the lead of the left one ends.
-    pub(crate) fn crossing([left, right]: [&Half; 2], pixel: i32, line: u16) -> Option<Self> {
-        let ([left_x, left_y], [right_x, right_y]) = (left.depth_steps(), right.depth_steps());
+    pub(crate) fn crossing([left, right]: [&Depth; 2], pixel: i32, line: u16) -> Option<Self> {
+        let ([left_x, left_y], [right_x, right_y]) = (left.steps(), right.steps());
         let (x, y) = (left_x.wrapping_sub(right_x), left_y.wrapping_sub(right_y));
-        let lead = left.depth_at(pixel, line).wrapping_sub(right.depth_at(pixel, line));
-        if !left.deep || !right.deep || x >= 0 || lead < 0 || lead > x.saturating_neg() {
+        let lead = left.at(pixel, line).wrapping_sub(right.at(pixel, line));
+        if !left.is_known() || !right.is_known() || x >= 0 || lead < 0 || lead > x.saturating_neg() {
             return None;
         }
         let reciprocal = Reciprocal::of(x.unsigned_abs());

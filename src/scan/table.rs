@@ -2,6 +2,8 @@
 
 use core::ops::Range;
 
+use heapless::Vec;
+
 /// A run of pixels of one triangle; no pixels if it ends where it starts. In two words, so that it is moved and compared fast.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
@@ -112,49 +114,36 @@ impl Span {
 pub(super) const SPANS: usize = 16;
 
 /// Some disjoint spans of one line, left to right, none of them empty, gaps showing the background.
-#[derive(Clone, Debug)]
-pub struct Table {
-    spans: [Span; SPANS],
-    count: usize,
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    spans: Vec<Span, SPANS>,
 }
 
 impl Table {
-    pub(crate) const fn new() -> Self {
-        Self { spans: [Span { pixels: 0, source: 0 }; SPANS], count: 0 }
-    }
-
-    pub(crate) fn clear(&mut self) {
-        self.count = 0;
+    pub(super) fn clear(&mut self) {
+        self.spans.clear();
     }
 
     #[inline(always)]
-    pub(crate) fn is_full(&self) -> bool {
-        self.count >= SPANS
+    pub(super) fn is_full(&self) -> bool {
+        self.spans.is_full()
     }
 
     #[inline(always)]
-    pub(crate) fn spans(&self) -> &[Span] {
-        self.spans.get(..self.count).unwrap_or_default()
-    }
-
-    #[inline(always)]
-    fn last(&mut self) -> Option<&mut Span> {
-        self.spans.get_mut(self.count.wrapping_sub(1))
+    pub(super) fn spans(&self) -> &[Span] {
+        &self.spans
     }
 
     /// Adds a span. False if there is no room.
     #[inline(always)]
-    pub(crate) fn push(&mut self, span: Span) -> bool {
-        let Some(free) = self.spans.get_mut(self.count) else { return false };
-        *free = span;
-        self.count += 1;
-        true
+    pub(super) fn push(&mut self, span: Span) -> bool {
+        self.spans.push(span).is_ok()
     }
 
     /// Adds a span, or lets the last one go on if it is of the same triangle. False if there is no room.
     #[inline(always)]
-    pub(crate) fn resume(&mut self, span: Span) -> bool {
-        match self.last() {
+    pub(super) fn resume(&mut self, span: Span) -> bool {
+        match self.spans.last_mut() {
             Some(last) if last.source == span.source => *last = last.with(last.start(), span.end()),
             _ => return self.push(span),
         }
@@ -163,11 +152,12 @@ impl Table {
 
     /// Lets the last span end at x.
     #[inline(always)]
-    pub(crate) fn cut(&mut self, x: i32) {
-        match self.last() {
+    pub(super) fn cut(&mut self, x: i32) {
+        match self.spans.last_mut() {
             Some(last) if last.start() < x => *last = last.with(last.start(), x),
-            Some(_) => self.count -= 1,
-            None => {}
+            _ => {
+                let _ = self.spans.pop();
+            }
         }
     }
 }

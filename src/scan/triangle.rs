@@ -34,7 +34,7 @@ impl<const LIGHTS: usize, L: LightSource> Triangle<'_, LIGHTS, L> {
     #[inline]
     #[must_use]
     pub fn points(&self) -> [Point; 3] {
-        self.corners.map(Vertex::point)
+        self.corners.map(|corner| corner.point())
     }
 
     /// Whether it is seen from behind.
@@ -103,7 +103,7 @@ impl<const LIGHTS: usize, L: LightSource> Triangle<'_, LIGHTS, L> {
     fn samples<const N: usize>(&self, places: [[u16; 3]; N]) -> [[[i16; 2]; LIGHTS]; N] {
         if L::IN_SCENE {
             let (normals, positions) = (self.normals(), self.positions());
-            let nearness = self.corners.map(Vertex::nearness);
+            let nearness = self.corners.map(|corner| corner.nearness());
             places.map(|place| {
                 let normal = mean(place, normals);
                 let position = mean(seen(place, nearness), positions);

@@ -30,6 +30,11 @@ impl<const LIGHTS: usize> Vertex<LIGHTS> {
         vertex
     }
 
+    /// The same with that light.
+    pub(crate) const fn lit<const OTHERS: usize>(self, dots: [[i16; 2]; OTHERS]) -> Vertex<OTHERS> {
+        Vertex { x: self.x, y: self.y, dots }
+    }
+
     /// Puts it there; the coordinates in Q12, rounded down.
     #[inline(always)]
     pub const fn place(&mut self, [x, y]: [i32; 2], nearness: u32) {

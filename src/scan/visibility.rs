@@ -1,12 +1,6 @@
 //! How it is found who is seen where on a line.
 
-use super::{
-    active::Active,
-    bucket::TriangleId,
-    geometry::Geometry,
-    list::ActiveList,
-    table::{Span, Table},
-};
+use super::{active::Active, bucket::TriangleId, geometry::Geometry, list::ActiveList, table::Span};
 
 /// A way to find who is seen where on a line, named in the type of a [`Scanner`](crate::Scanner).
 ///
@@ -28,7 +22,6 @@ pub trait Visibility: Sized {
         width: i32,
         list: &mut ActiveList<N>,
         geometry: &Geometry<'_, '_, L>,
-        table: &mut Table,
         see: impl FnMut(&[Span], &mut [Active; N]),
     );
 }

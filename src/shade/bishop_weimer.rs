@@ -30,7 +30,7 @@ use crate::{
 /// stands for, by up to 152 levels of 255 on the teapot. What does not fit its numbers is clamped: |N|² at the centroid at 1/8, the
 /// cosine at a corner at ±4.
 ///
-/// Facets are those of [`QuadraticDots`], 8 + 48 · LIGHTS bytes, as are the pixels.
+/// Facets are those of [`QuadraticDots`], 4 + 48 · LIGHTS bytes, as are the pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct BishopWeimer;
 
@@ -66,7 +66,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for BishopWeimer {
                 *specular = quadratic([h0, h1, h2], [h01, h12, h20]);
             }
         }
-        quadratic_dots::Facet { anchor: Gradient::anchor(p0), shiny, cosines }
+        quadratic_dots::Facet { shiny, cosines }
     }
 
     #[inline]

@@ -1,6 +1,6 @@
 //! The default: Phong shading by Duff's expression in barycentric form.
 
-use super::{flat::bend_at_centroid, lit, Intensity, Paint, Shade, Surface};
+use super::{flat::bend_at_centroid, lit, Intensity, Paint, Shade, Shiny, Surface};
 use crate::{
     math::{
         gradient::Gradient,
@@ -29,22 +29,23 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct DuffBarycentric;
 
-/// A facet, 12 + 48 · LIGHTS bytes for one light or two, 36 + 24 · LIGHTS for more.
+/// A facet, 4 + 48 · LIGHTS bytes; for lights in the scene 28 + 48 · LIGHTS.
 #[derive(Clone, Copy, Debug)]
-pub struct Facet<const LIGHTS: usize, N: Interpolant = Plane> {
-    anchor: [i16; 2],
-    /// Whether a highlight can show on it.
-    shiny: bool,
-    cosines: Cosines<LIGHTS, N>,
-}
+pub struct Facet<const LIGHTS: usize, N: Interpolant = Plane>(Cosines<[[Quadratic; 2]; LIGHTS], Steep<LIGHTS, N>>);
 
-/// How the cosines run over a facet.
+/// How the cosines run over a facet, or along a line, and whether a highlight can show.
 #[derive(Clone, Copy, Debug)]
-enum Cosines<const LIGHTS: usize, N> {
+enum Cosines<G, S> {
     /// Normals bend so little that the cosines are quadratics: for each light that with l times its intensity, Q30, and the
     /// height of that with h.
-    Gentle([[Quadratic; 2]; LIGHTS]),
-    Steep(Steep<LIGHTS, N>),
+    Gentle {
+        shiny: Shiny,
+        cosines: G,
+    },
+    Steep {
+        shiny: Shiny,
+        cosines: S,
+    },
 }
 
 /// Numerators and denominator of the cosines apart: N is an interpolant on a facet, its steps along a line.
@@ -58,62 +59,55 @@ pub struct Steep<const LIGHTS: usize, N, B = Quadratic> {
 
 /// What is stepped along a line.
 #[derive(Clone, Copy, Debug)]
-pub struct Registers<const LIGHTS: usize, N> {
-    shiny: bool,
-    cosines: Along<LIGHTS, N>,
-}
-
-/// Cosines along a line.
-#[derive(Clone, Copy, Debug)]
-enum Along<const LIGHTS: usize, N> {
-    Gentle([[Differences; 2]; LIGHTS]),
-    Steep(Steep<LIGHTS, N, Differences>),
-}
+pub struct Registers<const LIGHTS: usize, N>(Cosines<[[Differences; 2]; LIGHTS], Steep<LIGHTS, N, Differences>>);
 
 impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
     type Facet = Facet<LIGHTS, L::Product>;
     type Registers = Registers<LIGHTS, <L::Product as Interpolant>::Steps>;
-    const EMPTY: Self::Facet = Facet { anchor: [0; 2], shiny: false, cosines: Cosines::Gentle([[Quadratic::ZERO; 2]; LIGHTS]) };
+    const EMPTY: Self::Facet = Facet(Cosines::Gentle { shiny: Shiny::NOT, cosines: [[Quadratic::ZERO; 2]; LIGHTS] });
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
-        let [p0, ..] = triangle.points();
         let [e01, e12, e20] = triangle.edges.map(u32::from);
         let edge = e01.max(e12).max(e20);
         let middles = triangle.middles();
         let shiny = is_shiny(most(triangle, &middles), edge, &surface.material.power);
         let gradient = Gradient::new(triangle.points());
-        let cosines = gradient
-            .as_ref()
-            .filter(|_| !L::IN_SCENE)
-            .and_then(|gradient| gentle(triangle, edge, shiny.then_some(&surface.material.power), gradient))
-            .unwrap_or_else(|| Cosines::Steep(Steep::new(triangle, &middles, shiny, gradient.as_ref())));
-        Facet { anchor: Gradient::anchor(p0), shiny, cosines }
+        let gradient = gradient.as_ref();
+        if let Some(gradient) = gradient.filter(|_| !L::IN_SCENE) {
+            if let Some(cosines) = gentle(triangle, edge, shiny.then_some(&surface.material.power), gradient) {
+                return Facet(Cosines::Gentle { shiny: shiny.into(), cosines });
+            }
+        }
+        Facet(Cosines::Steep { shiny: shiny.into(), cosines: Steep::new(triangle, &middles, shiny, gradient) })
     }
 
     #[inline]
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
-        let [ax, ay] = facet.anchor.map(i32::from);
-        let (x, y) = (x - ax, y - ay);
-        let cosines = match &facet.cosines {
-            Cosines::Gentle(cosines) => Along::Gentle(cosines.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y)))),
-            Cosines::Steep(steep) => Along::Steep(steep.along(x, y)),
-        };
-        Registers { shiny: facet.shiny, cosines }
+        Registers(match &facet.0 {
+            Cosines::Gentle { shiny, cosines } => {
+                let cosines = cosines.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y)));
+                Cosines::Gentle { shiny: *shiny, cosines }
+            }
+            Cosines::Steep { shiny, cosines } => Cosines::Steep { shiny: *shiny, cosines: cosines.along(x, y) },
+        })
     }
 
     /// Dull and shining pixels by quadratics, dull and shining ones by quotients.
-    fn kind(r: &Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: usize, least: u32) -> usize {
-        match &r.cosines {
-            Along::Gentle(cosines) => (r.shiny && shows(cosines, pixels, first::<LIGHTS>(&surface.material.power, least))).into(),
-            Along::Steep(_) => 2 + usize::from(r.shiny),
+    fn kind(Registers(cosines): &Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: usize, least: u32) -> usize {
+        match cosines {
+            Cosines::Gentle { shiny, cosines } => {
+                (shiny.is() && shows(cosines, pixels, first::<LIGHTS>(&surface.material.power, least))).into()
+            }
+            Cosines::Steep { shiny, .. } => 2 + usize::from(shiny.is()),
         }
     }
 
     #[inline]
-    fn run<P>(r: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
+    fn run<P>(Registers(cosines): Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         let power = &surface.material.power;
-        match r.cosines {
-            Along::Gentle(mut cosines) if r.shiny && shows(&cosines, pixels.len(), first::<LIGHTS>(power, paint.least())) => {
+        let shows = |heights: &_| shows(heights, pixels.len(), first::<LIGHTS>(power, paint.least()));
+        match cosines {
+            Cosines::Gentle { shiny, mut cosines } if shiny.is() && shows(&cosines) => {
                 for pixel in pixels {
                     let mut intensity = Intensity::default();
                     for ([diffuse, height], strength) in cosines.iter_mut().zip(surface.intensities) {
@@ -123,7 +117,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
                     *pixel = paint.mix(intensity.limited(LIGHTS));
                 }
             }
-            Along::Gentle(mut cosines) => {
+            Cosines::Gentle { mut cosines, .. } => {
                 for pixel in pixels {
                     let mut intensity = Intensity::default();
                     for [diffuse, _] in &mut cosines {
@@ -132,7 +126,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffBarycentric {
                     *pixel = paint.dull(intensity.limited(LIGHTS).diffuse);
                 }
             }
-            Along::Steep(steep) => steep.run::<P, L>(r.shiny, surface, pixels, paint),
+            Cosines::Steep { shiny, cosines } => cosines.run::<P, L>(shiny.is(), surface, pixels, paint),
         }
     }
 }
@@ -199,7 +193,7 @@ fn gentle<const LIGHTS: usize, L: LightSource>(
     edge: u32,
     power: Option<&Power>,
     gradient: &Gradient,
-) -> Option<Cosines<LIGHTS, L::Product>> {
+) -> Option<[[Quadratic; 2]; LIGHTS]> {
     if edge > GENTLE || power.is_some_and(|power| ((edge * edge) >> 14) * u32::from(power.exponent()) > GENTLE_SHINY) {
         return None;
     }
@@ -225,7 +219,7 @@ fn gentle<const LIGHTS: usize, L: LightSource>(
             height.at = height.at.wrapping_sub(((power.start() >> 2) << k) as i32);
         }
     }
-    Some(Cosines::Gentle(cosines))
+    Some(cosines)
 }
 
 /// The largest edge constant at which the diffuse cosines are quadratic, Q15: 48° between two normals.
@@ -265,7 +259,7 @@ impl<const LIGHTS: usize, N: Interpolant> Steep<LIGHTS, N> {
         Self { dots, bend: bend(gradient, edge.into(), triangle.edges) }
     }
 
-    /// Along line y, from pixel x on, both counted from the anchor.
+    /// Along line y of the picture, from pixel x on.
     #[inline(always)]
     pub(super) fn along(&self, x: i32, y: i32) -> Steep<LIGHTS, N::Steps, Differences> {
         let dots = self.dots.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y)));

@@ -37,10 +37,9 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct DuffDifferences;
 
-/// The terms a … i over a facet: 28 + 24 · LIGHTS bytes for directional lights, 32 + 96 · LIGHTS for lights in the scene.
+/// The terms a … i over a facet: 24 + 24 · LIGHTS bytes for directional lights, 28 + 96 · LIGHTS for lights in the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet<const LIGHTS: usize, L: LightSource> {
-    anchor: [i16; 2],
     /// For each light the numerators N·l (times its intensity) and N·h.
     pub(super) products: [[L::Product; 2]; LIGHTS],
     /// The radicand |N|² as `1 − u`: u, Q28.
@@ -68,7 +67,6 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffDifferences {
 
     #[inline]
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
-        let [x, y] = facet.counted(x, y);
         Registers {
             products: facet.products.each_ref().map(|pair| pair.each_ref().map(|one| one.along(x, y))),
             bend: facet.bend.along(x, y),
@@ -124,11 +122,10 @@ pub(super) fn cosine<L: LightSource>(product: i32, root: u32) -> u32 {
 impl<const LIGHTS: usize, L: LightSource> Facet<LIGHTS, L> {
     /// No triangle.
     pub(super) const EMPTY: Self =
-        Self { anchor: [0; 2], products: [[L::Product::ZERO; 2]; LIGHTS], bend: Quadratic::ZERO, bends: L::Change::NONE };
+        Self { products: [[L::Product::ZERO; 2]; LIGHTS], bend: Quadratic::ZERO, bends: L::Change::NONE };
 
     /// The terms of a triangle.
     pub(super) fn new(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self {
-        let [p0, ..] = triangle.points();
         let gradient = Gradient::new(triangle.points());
         let gradient = gradient.as_ref();
         let mut products = [[L::Product::ZERO; 2]; LIGHTS];
@@ -157,14 +154,7 @@ impl<const LIGHTS: usize, L: LightSource> Facet<LIGHTS, L> {
         }
         let [e01, e12, e20] = triangle.edges.map(u32::from);
         let bend = bend(gradient, e01.max(e12).max(e20), triangle.edges);
-        Self { anchor: Gradient::anchor(p0), products, bend, bends: L::Change::of(|| bends) }
-    }
-
-    /// A pixel's place as the terms count it.
-    #[inline(always)]
-    pub(super) fn counted(&self, x: i32, y: i32) -> [i32; 2] {
-        let [ax, ay] = self.anchor.map(i32::from);
-        [x - ax, y - ay]
+        Self { products, bend, bends: L::Change::of(|| bends) }
     }
 }
 

@@ -23,7 +23,7 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct DuffDirect;
 
-/// A facet, and a pixel counted from its anchor.
+/// A facet, and a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Registers<const LIGHTS: usize, L: LightSource> {
     facet: Facet<LIGHTS, L>,
@@ -42,7 +42,6 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for DuffDirect {
 
     #[inline]
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
-        let [x, y] = facet.counted(x, y);
         Registers { facet: *facet, x, y }
     }
 

@@ -17,10 +17,9 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct Gouraud;
 
-/// A Gouraud facet, 28 bytes: diffuse and specular at the anchor, and their increase to the right and down, Q24.
+/// A Gouraud facet, 24 bytes: diffuse and specular at pixel (0, 0), and their increase to the right and down, Q24.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
-    anchor: [i16; 2],
     planes: [Plane; 2],
 }
 
@@ -28,23 +27,20 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for Gouraud {
     type Facet = Facet;
     /// Diffuse and specular, Q24.
     type Registers = [Slope; 2];
-    const EMPTY: Facet = Facet { anchor: [0; 2], planes: [Plane::ZERO; 2] };
+    const EMPTY: Facet = Facet { planes: [Plane::ZERO; 2] };
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Facet {
-        let points = triangle.points();
         let [c0, c1, c2] = triangle.corners.map(|corner| at_corner(&corner.dots, surface));
-        let gradient = Gradient::new(points);
+        let gradient = Gradient::new(triangle.points());
         let plane = |which: fn(Intensity) -> u32| {
             Plane::through(gradient.as_ref(), [c0, c1, c2].map(|intensity| which(intensity) as i32), [0; 3])
         };
-        let [p0, ..] = points;
-        Facet { anchor: Gradient::anchor(p0), planes: [plane(|c| c.diffuse), plane(|c| c.specular)] }
+        Facet { planes: [plane(|c| c.diffuse), plane(|c| c.specular)] }
     }
 
     #[inline]
     fn start(facet: &Facet, x: i32, y: i32) -> [Slope; 2] {
-        let [ax, ay] = facet.anchor.map(i32::from);
-        facet.planes.map(|plane| plane.along(x - ax, y - ay))
+        facet.planes.map(|plane| plane.along(x, y))
     }
 
     #[inline]

@@ -4,7 +4,7 @@ use super::{
     duff_barycentric::{most, most_cosine, rise, Steep},
     flat::bend_at_centroid,
     quadratic_intensity::{self, finer, samples, Bowed, Cosines},
-    Intensity, Paint, Shade, Surface,
+    Intensity, Paint, Shade, Shiny, Surface,
 };
 use crate::{
     math::{
@@ -14,7 +14,7 @@ use crate::{
         root::inverse_root,
     },
     model::light::LightSource,
-    scan::{pair::Pair, triangle::Triangle, vertex::Vertex},
+    scan::{pair::Pair, triangle::Triangle},
 };
 
 /// Shading by differences of the intensity where these are within `LEVELS` levels of 255, by Duff's expression elsewhere.
@@ -35,42 +35,33 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct Hybrid<const LEVELS: u32 = 2>;
 
-/// A facet, 60 bytes for one light, and for two directional ones.
+/// A facet, 52 bytes for one light.
 #[derive(Clone, Copy, Debug)]
-pub struct Facet<const LIGHTS: usize, N: Interpolant> {
-    anchor: [i16; 2],
-    /// Whether a highlight shows.
-    shiny: bool,
-    light: Kind<Plane, [Quadratic; 2], Steep<LIGHTS, N>>,
-}
+pub struct Facet<const LIGHTS: usize, N: Interpolant>(Kind<Plane, [Quadratic; 2], Steep<LIGHTS, N>>);
 
 /// What is stepped along a line.
 #[derive(Clone, Copy, Debug)]
-pub struct Registers<const LIGHTS: usize, N: Steps> {
-    shiny: bool,
-    light: Kind<Slope, [Differences; 2], Steep<LIGHTS, N, Differences>>,
-}
+pub struct Registers<const LIGHTS: usize, N: Steps>(Kind<Slope, [Differences; 2], Steep<LIGHTS, N, Differences>>);
 
-/// How light runs over a facet, or along a line.
+/// How light runs over a facet, or along a line, and whether a highlight shows.
 #[derive(Clone, Copy, Debug)]
 enum Kind<A, B, C> {
     /// Diffuse intensity alone, in the format of [`finer`].
     Linear(A),
     /// Diffuse and specular intensity, likewise.
-    Quadratic(B),
+    Quadratic { shiny: Shiny, intensity: B },
     /// Cosines, their numerators and denominator apart.
-    Exact(C),
+    Exact { shiny: Shiny, cosines: C },
 }
 
 impl<const LEVELS: u32, const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for Hybrid<LEVELS> {
     type Facet = Facet<LIGHTS, L::Product>;
     type Registers = Registers<LIGHTS, <L::Product as Interpolant>::Steps>;
     const BY_PAIR: bool = !L::IN_SCENE;
-    const EMPTY: Self::Facet = Facet { anchor: [0; 2], shiny: false, light: Kind::Linear(Plane::ZERO) };
+    const EMPTY: Self::Facet = Facet(Kind::Linear(Plane::ZERO));
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
-        let [p0, p1, p2] = triangle.points();
-        let gradient = Gradient::new([p0, p1, p2]);
+        let gradient = Gradient::new(triangle.points());
         let gradient = gradient.as_ref();
         let middles = triangle.middles();
         let [e01, e12, e20] = triangle.edges.map(u32::from);
@@ -81,8 +72,7 @@ impl<const LEVELS: u32, const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> fo
         if !shiny && edge <= GENTLE {
             let diffuse = gentle(triangle, &middles);
             if is_linear::<LEVELS>(&diffuse, material.diffuse) {
-                let light = Kind::Linear(plane::<LIGHTS>(gradient, &diffuse));
-                return Facet { anchor: Gradient::anchor(p0), shiny: false, light };
+                return Facet(Kind::Linear(plane::<LIGHTS>(gradient, &diffuse)));
             }
         }
         curved::<LEVELS, LIGHTS, L>(triangle, surface, gradient, &middles, shiny)
@@ -95,23 +85,17 @@ impl<const LEVELS: u32, const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> fo
 
     #[inline]
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
-        let [ax, ay] = facet.anchor.map(i32::from);
-        let (x, y) = (x - ax, y - ay);
-        let light = match &facet.light {
+        Registers(match &facet.0 {
             Kind::Linear(diffuse) => Kind::Linear(diffuse.along(x, y)),
-            Kind::Quadratic(intensity) => Kind::Quadratic(intensity.each_ref().map(|one| one.along(x, y))),
-            Kind::Exact(cosines) => Kind::Exact(cosines.along(x, y)),
-        };
-        Registers { shiny: facet.shiny, light }
+            Kind::Quadratic { shiny, intensity } => {
+                Kind::Quadratic { shiny: *shiny, intensity: intensity.each_ref().map(|one| one.along(x, y)) }
+            }
+            Kind::Exact { shiny, cosines } => Kind::Exact { shiny: *shiny, cosines: cosines.along(x, y) },
+        })
     }
 
     #[inline]
-    fn run<P>(
-        Registers { shiny, light }: Self::Registers,
-        surface: &Surface<'_, LIGHTS>,
-        pixels: &mut [P],
-        paint: &impl Paint<P>,
-    ) {
+    fn run<P>(Registers(light): Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>) {
         match light {
             Kind::Linear(mut diffuse) => {
                 for pixel in pixels {
@@ -120,8 +104,10 @@ impl<const LEVELS: u32, const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> fo
                     *pixel = paint.dull(intensity.limited(LIGHTS).diffuse);
                 }
             }
-            Kind::Quadratic(intensity) => quadratic_intensity::Registers { shiny, intensity }.run::<P, LIGHTS>(pixels, paint),
-            Kind::Exact(cosines) => cosines.run::<P, L>(shiny, surface, pixels, paint),
+            Kind::Quadratic { shiny, intensity } => {
+                quadratic_intensity::Registers { shiny: shiny.is(), intensity }.run::<P, LIGHTS>(pixels, paint)
+            }
+            Kind::Exact { shiny, cosines } => cosines.run::<P, L>(shiny.is(), surface, pixels, paint),
         }
     }
 }
@@ -191,7 +177,7 @@ fn joined<const LEVELS: u32, const LIGHTS: usize, L: LightSource>(
     if !within_levels((brightest * rise(edge as i32)) >> 13, LINEAR) {
         return None;
     }
-    let [a, b, c, d] = pair.corners.map(Vertex::point);
+    let [a, b, c, d] = pair.corners.map(|corner| corner.point());
     let [x, y] = [b.x - a.x, b.y - a.y];
     if x.unsigned_abs().max(y.unsigned_abs()) >= 1 << 13 {
         return None;
@@ -205,11 +191,11 @@ fn joined<const LEVELS: u32, const LIGHTS: usize, L: LightSource>(
     if !within_levels(2 * above, TWIST) {
         return None;
     }
-    // A bow is about ends · e/4, and its mean over a triangle a twelfth of it.
-    let edges = (ab + bc + 2 * ac + cd + da) >> 2;
-    let lift = ((((va + vb + vc + vd) * edges as i32) >> 15) * 43) >> 10;
+    // A bow is about ends · e/2, and its mean over a triangle a twelfth of it.
+    let edges = (ab + bc + 2 * ac + cd + da) >> 3;
+    let lift = ((((va + vb + vc + vd) * edges as i32) >> 15) * 43) >> 9;
     let at = at.wrapping_add((lift + ((11 * above) >> 5)).wrapping_shl(finer as u32));
-    Some(Facet { anchor: Gradient::anchor(a), shiny: false, light: Kind::Linear(Plane { at, x: dx, y: dy }) })
+    Some(Facet(Kind::Linear(Plane { at, x: dx, y: dy })))
 }
 
 /// How far the diagonals of two triangles with one plane may pass each other by, twice that for each level of tolerance: a corner is then
@@ -251,7 +237,6 @@ fn curved<const LEVELS: u32, const LIGHTS: usize, L: LightSource>(
     middles: &[[[i16; 2]; LIGHTS]; 3],
     shiny: bool,
 ) -> Facet<LIGHTS, L::Product> {
-    let [p0, ..] = triangle.points();
     let material = surface.material;
     let samples = samples(triangle, middles);
     let centroid = Cosines::between(&triangle.centroid(), inverse_root(bend_at_centroid(triangle.edges)));
@@ -276,13 +261,13 @@ fn curved<const LEVELS: u32, const LIGHTS: usize, L: LightSource>(
         shows = !is_good || !within(most, material.specular, LEVELS / 2) || !bowed_up_to(LEVELS.saturating_mul(2));
     }
     let quadratic = |bowed: &Bowed| Quadratic::bowed(gradient, bowed.corners, bowed.bows, finer(LIGHTS));
-    let light = if !is_good {
-        Kind::Exact(Steep::new(triangle, middles, shiny, gradient))
+    Facet(if !is_good {
+        Kind::Exact { shiny: shiny.into(), cosines: Steep::new(triangle, middles, shiny, gradient) }
     } else if is_linear && !shows {
         Kind::Linear(plane::<LIGHTS>(gradient, &diffuse))
     } else {
         let diffuse = if is_linear { plane::<LIGHTS>(gradient, &diffuse).into() } else { quadratic(&diffuse) };
-        Kind::Quadratic([diffuse, if shows { quadratic(&specular) } else { Quadratic::ZERO }])
-    };
-    Facet { anchor: Gradient::anchor(p0), shiny: shows, light }
+        let specular = if shows { quadratic(&specular) } else { Quadratic::ZERO };
+        Kind::Quadratic { shiny: shows.into(), intensity: [diffuse, specular] }
+    })
 }

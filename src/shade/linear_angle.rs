@@ -105,10 +105,9 @@ fn words(gradient: Option<&Gradient>, angles: [i32; 3]) -> Plane {
     Plane { at: (at << FINER).wrapping_add(ZERO), x: x << FINER, y: y << FINER }
 }
 
-/// A facet, 8 + 24 · LIGHTS bytes.
+/// A facet, 4 + 24 · LIGHTS bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet<const LIGHTS: usize> {
-    anchor: [i16; 2],
     shiny: bool,
     planes: [[Plane; 2]; LIGHTS],
 }
@@ -123,11 +122,10 @@ pub struct Registers<const LIGHTS: usize> {
 impl<const LIGHTS: usize, L: LightSource, A: Angle> Shade<LIGHTS, L> for LinearAngle<A> {
     type Facet = Facet<LIGHTS>;
     type Registers = Registers<LIGHTS>;
-    const EMPTY: Self::Facet = Facet { anchor: [0; 2], shiny: false, planes: [[Plane::ZERO; 2]; LIGHTS] };
+    const EMPTY: Self::Facet = Facet { shiny: false, planes: [[Plane::ZERO; 2]; LIGHTS] };
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
-        let points = triangle.points();
-        let gradient = Gradient::new(points);
+        let gradient = Gradient::new(triangle.points());
         let plane = |cosines: [i32; 3]| words(gradient.as_ref(), cosines.map(angle));
         let least = (surface.material.power.start() >> 17) as i16;
         let [c0, c1, c2] = &triangle.corners;
@@ -142,14 +140,12 @@ impl<const LIGHTS: usize, L: LightSource, A: Angle> Shade<LIGHTS, L> for LinearA
                 *specular = plane([*h0, *h1, *h2].map(|dot| i32::from(dot) << 16));
             }
         }
-        let [p0, ..] = points;
-        Facet { anchor: Gradient::anchor(p0), shiny, planes }
+        Facet { shiny, planes }
     }
 
     #[inline]
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
-        let [ax, ay] = facet.anchor.map(i32::from);
-        let angles = facet.planes.each_ref().map(|pair| pair.each_ref().map(|plane| plane.along(x - ax, y - ay)));
+        let angles = facet.planes.each_ref().map(|pair| pair.each_ref().map(|plane| plane.along(x, y)));
         Registers { shiny: facet.shiny, angles }
     }
 

@@ -125,6 +125,26 @@ pub trait Shade<const LIGHTS: usize, L: LightSource = Light> {
     fn run<P>(registers: Self::Registers, surface: &Surface<'_, LIGHTS>, pixels: &mut [P], paint: &impl Paint<P>);
 }
 
+/// Whether a highlight can show: in the 16 bits that the kind of a facet leaves of a word, so that facets are moved by words.
+#[derive(Clone, Copy, Debug)]
+struct Shiny(u16);
+
+impl Shiny {
+    const NOT: Self = Self(0);
+
+    #[inline(always)]
+    const fn is(self) -> bool {
+        self.0 != 0
+    }
+}
+
+impl From<bool> for Shiny {
+    #[inline(always)]
+    fn from(is: bool) -> Self {
+        Self(is.into())
+    }
+}
+
 /// A product with so many bits more than Q14, clamped at 0, as Q16.
 #[inline(always)]
 const fn lit(product: i32, finer: i32) -> u32 {

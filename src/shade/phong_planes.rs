@@ -24,13 +24,12 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct PhongPlanes;
 
-/// The vectors a, b and c: 40 + 24 · LIGHTS bytes for directional lights, 44 + 72 · LIGHTS for lights in the scene.
+/// The vectors a, b and c: 36 + 24 · LIGHTS bytes for directional lights, 40 + 72 · LIGHTS for lights in the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet<const LIGHTS: usize, L: LightSource> {
-    anchor: [i16; 2],
     /// N, Q24.
     normal: [Plane; 3],
-    /// For each light l and h at the anchor, Q24.
+    /// For each light l and h at pixel (0, 0), Q24.
     rays: [[[i32; 3]; 2]; LIGHTS],
     /// What they increase by to the right and down.
     rises: L::Change<[[[[i32; 2]; 3]; 2]; LIGHTS]>,
@@ -39,11 +38,9 @@ pub struct Facet<const LIGHTS: usize, L: LightSource> {
 impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for PhongPlanes {
     type Facet = Facet<LIGHTS, L>;
     type Registers = Registers<LIGHTS, L>;
-    const EMPTY: Self::Facet =
-        Facet { anchor: [0; 2], normal: [Plane::ZERO; 3], rays: [[[0; 3]; 2]; LIGHTS], rises: L::Change::NONE };
+    const EMPTY: Self::Facet = Facet { normal: [Plane::ZERO; 3], rays: [[[0; 3]; 2]; LIGHTS], rises: L::Change::NONE };
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
-        let [p0, ..] = triangle.points();
         let gradient = Gradient::new(triangle.points());
         let planes = |[v0, v1, v2]: [[i16; 3]; 3]| {
             let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) = (v0, v1, v2);
@@ -52,7 +49,7 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for PhongPlanes {
         };
         let normal = planes(triangle.normals());
         if !L::IN_SCENE {
-            return Facet { anchor: Gradient::anchor(p0), normal, rays: far(triangle, surface), rises: L::Change::NONE };
+            return Facet { normal, rays: far(triangle, surface), rises: L::Change::NONE };
         }
         let positions = triangle.positions();
         let rays = triangle.aims.each_ref().map(|aim| {
@@ -61,7 +58,6 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for PhongPlanes {
             [rays.map(|rays| short(rays.light)), rays.map(|rays| short(rays.half))].map(planes)
         });
         Facet {
-            anchor: Gradient::anchor(p0),
             normal,
             rays: rays.map(|pair| pair.map(|ray| ray.map(|plane| plane.at))),
             rises: L::Change::of(|| rays.map(|pair| pair.map(|ray| ray.map(|plane| [plane.x, plane.y])))),
@@ -70,8 +66,6 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for PhongPlanes {
 
     #[inline]
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
-        let [ax, ay] = facet.anchor.map(i32::from);
-        let (x, y) = (x - ax, y - ay);
         let normal = facet.normal.each_ref().map(|plane| plane.along(x, y));
         let Some(rises) = facet.rises.get() else {
             return Registers { normal, rays: facet.rays, steps: L::Change::NONE };

@@ -29,10 +29,9 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct QuadraticDots;
 
-/// A facet, 8 + 48 · LIGHTS bytes.
+/// A facet, 4 + 48 · LIGHTS bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet<const LIGHTS: usize> {
-    pub(super) anchor: [i16; 2],
     /// Whether a highlight can show on it.
     pub(super) shiny: bool,
     /// For each light the cosine with l, times its intensity, and that with h, Q28.
@@ -52,11 +51,10 @@ pub(super) const FINER: i32 = 14;
 impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for QuadraticDots {
     type Facet = Facet<LIGHTS>;
     type Registers = Registers<LIGHTS>;
-    const EMPTY: Self::Facet = Facet { anchor: [0; 2], shiny: false, cosines: [[Quadratic::ZERO; 2]; LIGHTS] };
+    const EMPTY: Self::Facet = Facet { shiny: false, cosines: [[Quadratic::ZERO; 2]; LIGHTS] };
 
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet {
-        let [p0, p1, p2] = triangle.points();
-        let gradient = Gradient::new([p0, p1, p2]);
+        let gradient = Gradient::new(triangle.points());
         let middles = triangle.middles();
         let [e01, e12, e20] = *triangle.edges;
         let shiny = is_shiny(most(triangle, &middles), e01.max(e12).max(e20).into(), &surface.material.power);
@@ -78,13 +76,12 @@ impl<const LIGHTS: usize, L: LightSource> Shade<LIGHTS, L> for QuadraticDots {
                 *specular = quadratic([h0, h1, h2], [h01, h12, h20]);
             }
         }
-        Facet { anchor: Gradient::anchor(p0), shiny, cosines }
+        Facet { shiny, cosines }
     }
 
     #[inline]
     fn start(facet: &Self::Facet, x: i32, y: i32) -> Self::Registers {
-        let [ax, ay] = facet.anchor.map(i32::from);
-        let along = |quadratic: &Quadratic| quadratic.along(x - ax, y - ay);
+        let along = |quadratic: &Quadratic| quadratic.along(x, y);
         Registers { shiny: facet.shiny, cosines: facet.cosines.each_ref().map(|pair| pair.each_ref().map(along)) }
     }
 

@@ -265,7 +265,7 @@ impl<
         let vertex = |number: u16| self.vertices.get(usize::from(number));
         let [n0, n1, n2] = numbers;
         let mut corners = [*vertex(n0)?, *vertex(n1)?, *vertex(n2)?];
-        let [a, b, c] = corners.each_ref().map(Vertex::point);
+        let [a, b, c] = corners.map(|corner| corner.point());
         let material = data.materials.get(usize::from(mesh.material_number(triangle)?))?;
         if material.specular == 0 || area(a, b, c) >= 0 {
             return None;

@@ -16,11 +16,13 @@ use beamshade::Schedule;
 pub(crate) struct Arguments {}
 
 /// What is told, the scene, and the method.
-pub(crate) const WAYS: [[&str; 3]; 12] = [
+pub(crate) const WAYS: [[&str; 3]; 14] = [
     ["rolling, default", "t880", METHOD],
     ["rolling, quadratic intensity", "t880", "quadratic-intensity"],
     ["rolling, Gouraud", "t880", "gouraud"],
     ["rolling, flat", "t880", "flat"],
+    ["rolling, vertices made anew, default", "t880-lean", METHOD],
+    ["rolling, vertices made anew, flat", "t880-lean", "flat"],
     ["rolling, as planned for 8000 cycles", "t880-planned", "degrading"],
     ["rolling, one-line z-buffer, default", "t880-depth-line", METHOD],
     ["rolling, smooth lines, default", "t880-smooth", METHOD],

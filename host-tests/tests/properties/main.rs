@@ -8,6 +8,7 @@ mod changes;
 mod cost;
 mod coverage;
 mod ladder;
+mod lean;
 mod lines;
 mod pairs;
 mod phong;

@@ -21,19 +21,20 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
 /// Number of opaque materials; each has a transparent one like it, so much further on.
-pub(crate) const OPAQUE: u16 = 4;
+pub(crate) const OPAQUE: u16 = 5;
 
 /// One of each kind: one- and double-sided, glossy and matte, saturating, plain for [`Choose`](beamshade::Choose).
 static MATERIALS: [Material; 2 * OPAQUE as usize] = {
-    let [a, b, c, d] = OPAQUE_MATERIALS;
-    [a, b, c, d, a.opacity(0.4), b.opacity(0.75), c.opacity(0.1), d.opacity(0.9)]
+    let [a, b, c, d, e] = OPAQUE_MATERIALS;
+    [a, b, c, d, e, a.opacity(0.4), b.opacity(0.75), c.opacity(0.1), d.opacity(0.9), e.opacity(0.5)]
 };
 
-const OPAQUE_MATERIALS: [Material; OPAQUE as usize] = [
+static OPAQUE_MATERIALS: [Material; OPAQUE as usize] = [
     Material::new(Color::rgb(0.85, 0.45, 0.20)),
     Material::new(Color::rgb(0.2, 0.6, 0.9)).double_sided().specular(0.0),
     Material::new(Color::WHITE).ambient(1.0).diffuse(1.0).specular(1.0).exponent(1).plain(),
     Material::new(Color::rgb(0.3, 0.8, 0.3)).highlight(Color::rgb(1.0, 0.5, 0.0)).exponent(200).plain().double_sided(),
+    Material::new(Color::WHITE).ambient(1.0).diffuse(0.0).specular(0.0).plain().double_sided(),
 ];
 
 /// A mesh that owns its arrays.
@@ -315,7 +316,7 @@ fn shapes() -> impl Strategy<Value = Shape> {
                 }
             }
             let split = split % (triangles.len() as u16 + 1);
-            let parts = vec![[split, first % 4], [triangles.len() as u16 - split, second % 4]];
+            let parts = vec![[split, first % OPAQUE], [triangles.len() as u16 - split, second % OPAQUE]];
             Shape { extent, center, radius, positions, normals, triangles, edges, parts }
         },
     )

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 
 use crate::cases;
-use crate::scene::{scenes, Scene, Shape};
+use crate::scene::{scenes, Scene, Shape, OPAQUE};
 
 /// Draws all lines of a picture.
 fn draw<S: Shade<LIGHTS, L>, const ACTIVE: usize, const LIGHTS: usize, L: LightSource>(picture: Picture<'_, '_, LIGHTS, L>) {
@@ -80,6 +80,40 @@ fn normals_that_are_too_long_do_not_overflow() {
         background: Background::Keep,
         objects: vec![(shape, Pose::IDENTITY)],
     });
+}
+
+/// One triangle, or two, that look towards the viewer, of a material without diffuse and specular reflection, and bright lights.
+fn dull<const LIGHTS: usize>(size: i16, normals: [[i16; 3]; 4], edges: &[[u16; 3]]) -> Scene<LIGHTS> {
+    let corners = vec![[0, 0, 0], [size, 0, 0], [size, size, 0], [0, size, 0]];
+    let triangles = [[0, 1, 2], [0, 2, 3]].into_iter().take(edges.len()).collect();
+    let shape = Shape::plain(corners, triangles);
+    let shape =
+        Shape { normals: normals.to_vec(), edges: edges.to_vec(), parts: vec![[edges.len() as u16, OPAQUE - 1]], ..shape };
+    Scene {
+        camera: Camera::new(Size::new(64, 48)),
+        lights: [Light::directional([0.0, 0.0, 1.0]); LIGHTS],
+        background: Background::Keep,
+        objects: vec![(shape, Pose::IDENTITY)],
+    }
+}
+
+/// One facet for both triangles of a pair: what it is lifted by for the bows of all edges.
+#[test]
+fn bows_of_a_dull_pair_do_not_overflow() {
+    // 29.9° about one axis, 40° about the other.
+    let normals = [[8167, 0, 14203], [0, 10531, 12551], [-8167, 0, 14203], [0, -10531, 12551]];
+    draw_all(&dull::<4>(16000, normals, &[[11008, 11008, 16285], [16285, 11008, 11008]]));
+    draw_all(&dull::<1>(16000, [[0, 0, i16::MAX]; 4], &[[16384; 3]; 2]));
+}
+
+/// The plane nearest to the light of a triangle: how far apart that moves its corners.
+#[test]
+fn corners_of_a_dull_plane_do_not_overflow() {
+    let normals = [[0, 0, i16::MIN], [0, 0, i16::MAX], [0, 0, i16::MAX], [0, 0, i16::MIN]];
+    // In one of these the reciprocal of the area has its largest mantissa.
+    for size in 0..40 {
+        draw_all(&dull::<1>(8000 + 200 * size, normals, &[[0, 16384, 0]]));
+    }
 }
 
 /// The binary form of a mesh with two parts and two materials, in words.

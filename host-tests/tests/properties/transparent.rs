@@ -77,7 +77,7 @@ fn is_front_over_opaque(scene: &Scene) -> [usize; 2] {
         let expected = if is_blended && is_known {
             counts[0] += 1;
             counts[1] += usize::from(behind.is_some());
-            let opacity = [0.4, 0.75, 0.1, 0.9][usize::from(material.unwrap() - OPAQUE)];
+            let opacity = [0.4, 0.75, 0.1, 0.9, 0.5][usize::from(material.unwrap() - OPAQUE)];
             let opacity: f64 = f64::round(opacity * 256.0) / 256.0;
             [0, 1, 2]
                 .map(|i| opacity * f64::from(front.color[pixel].0[i]) + (1.0 - opacity) * f64::from(opaque.color[pixel].0[i]))

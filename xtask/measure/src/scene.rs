@@ -1,6 +1,6 @@
 //! The scenes: Newell's teapot of 880 triangles or another mesh, turning once, in Rgb565.
 
-use beamshade::{Camera, Color, Frame, Line, Lines, Pose, Rotation, Scanner, Turn};
+use beamshade::{Camera, Color, Line, Lines, Pose, Rotation, Scanner, Turn};
 use embedded_graphics::{
     geometry::Size,
     pixelcolor::{Rgb565, RgbColor},
@@ -249,11 +249,13 @@ const MADE: usize = if cfg!(any(feature = "regular-split", feature = "highlight-
 } else {
     0
 };
-const CORNERS: usize = 2 * MADE;
 
-type TeapotFrame = Frame<
+#[cfg(feature = "lean")]
+type TeapotFrame = beamshade::LeanFrame<'static, SEEN, HEIGHT, LIGHTS, OBJECTS, Source>;
+#[cfg(not(feature = "lean"))]
+type TeapotFrame = beamshade::Frame<
     'static,
-    { VERTICES * OBJECTS + 4 * PANES + CORNERS },
+    { VERTICES * OBJECTS + 4 * PANES + 2 * MADE },
     { SEEN + 2 * PANES + MADE },
     { HEIGHT * SUBLINES },
     LIGHTS,
@@ -323,7 +325,7 @@ impl Scene {
     /// A scene of which no frame was prepared yet.
     pub const fn new() -> Self {
         Scene {
-            frame: Frame::new(),
+            frame: TeapotFrame::new(),
             scanner: Scanner::new(),
             row: Row { pixels: [Rgb565::BLACK; WIDTH], colors: [Color::BLACK; _] },
             #[cfg(feature = "ahead")]

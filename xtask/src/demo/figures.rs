@@ -90,7 +90,7 @@ fn frame_bytes(vertices: usize, triangles: usize, lines: usize) -> usize {
     NONE + (vertices * vertex + triangles * triangle + lines * line).next_multiple_of(align_of::<Frame<'_, 0, 0, 0>>())
 }
 
-/// The same for `size_of::<Scanner<ACTIVE, S>>()`.
+/// The same for `size_of::<Scanner<ACTIVE, S>>()`, again but for some padding.
 fn scanner_bytes<S: Shade<1>>(active: usize) -> usize {
     let none = size_of::<Scanner<0, S>>();
     let each = (size_of::<Scanner<1024, S>>() - none) / 1024;
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn sizes_are_those_of_the_types() {
         assert!(frame_bytes(481, 470, 240).abs_diff(size_of::<Frame<'_, 481, 470, 240>>()) <= align_of::<Frame<'_, 0, 0, 0>>());
-        assert_eq!(scanner_bytes::<DuffBarycentric>(61), size_of::<Scanner<61>>());
-        assert_eq!(scanner_bytes::<Flat>(62), size_of::<Scanner<62, Flat>>());
+        assert!(scanner_bytes::<DuffBarycentric>(61).abs_diff(size_of::<Scanner<61>>()) <= align_of::<Scanner<61>>());
+        assert!(scanner_bytes::<Flat>(62).abs_diff(size_of::<Scanner<62, Flat>>()) <= align_of::<Scanner<62, Flat>>());
     }
 }
