@@ -28,8 +28,9 @@ use crate::{
 /// 2 a line. Two triangles that follow each other in the mesh as a, b, c and a, c, d take the room of one where they are convex
 /// together on the screen. `TRIANGLES` is 32767 at most; more does not compile. Meshes are borrowed. `OBJECTS` counts objects in
 /// sight; `MADE` triangles and their corners, which take the place of vertices, come from clipping at the near plane and at 1535
-/// pixels from the picture's centre, and from [splitting](Frame::add_split) where a highlight may lie. `V` says whether vertices are
-/// stored, as they are but in a [`LeanFrame`].
+/// pixels from the picture's centre, and from [splitting](Frame::add_split) where a highlight may lie; with room for none, no code
+/// for either is linked, and what would be clipped is left out whichever way it faces. `V` says whether vertices are stored, as they are
+/// but in a [`LeanFrame`].
 #[derive(Clone, Debug)]
 pub struct Frame<
     'm,
@@ -67,9 +68,9 @@ pub struct Frame<
 /// A frame that stores no vertices: each is projected again whenever a triangle of it is culled, starts, turns, is compared, or set up.
 ///
 /// The same pixels for less memory and more time. It takes 4 bytes a triangle or pair, 2 a line, and about 170 an object: for T880 1.8 kB
-/// instead of 7.5, so that all of it fits 7 kB with [`Flat`](crate::Flat), at 1.6 to 1.8 times the cycles. Nothing is clipped: triangles
-/// that would be are left out, and counted as [`Full::Made`]; so objects are best wholly in sight, or out of it. Nothing is
-/// [split](Frame::add_split), and what a line takes is not [bounded](crate::Price).
+/// instead of 7.5, so that all of it fits 7 kB with [`Flat`](crate::Flat), at 1.6 to 1.7 times the cycles. Nothing is clipped: triangles
+/// that would be are left out, whichever way they face, and counted as [`Full::Made`]; so objects are best wholly in sight, or out of
+/// it. Nothing is [split](Frame::add_split), and what a line takes is not [bounded](crate::Price).
 ///
 /// ```
 /// # use beamshade::{Camera, Full, LeanFrame, Light, Mesh, Pose, Scanner};
@@ -348,7 +349,15 @@ impl<
         };
         let [w0, w1, w2] = Weights::CORNERS;
         let [n0, n1, n2] = corners;
-        let mut polygon = clip(projection, [(n0, w0), (n1, w1), (n2, w2)].map(corner));
+        let whole_corners = [(n0, w0), (n1, w1), (n2, w2)].map(corner);
+        if projection.is_outside(whole_corners.map(|corner| corner.eye)) {
+            return Ok(0);
+        }
+        if MADE == 0 {
+            // Nothing can be kept: whoever has no room for parts needs no instruction that makes them.
+            return Err(());
+        }
+        let mut polygon = clip(projection, whole_corners);
         let (used, made, kept) = (self.used, self.made.len(), self.buckets.used);
         for corner in &mut polygon {
             if corner.vertex.is_some() {

@@ -274,6 +274,12 @@ impl Projection {
         }
     }
 
+    /// Whether all of a triangle lies outside of one of these planes.
+    #[must_use]
+    pub fn is_outside(&self, triangle: [Eye; 3]) -> bool {
+        (0..Self::PLANES).any(|plane| triangle.iter().all(|corner| self.inside(*corner, plane) < 0))
+    }
+
     /// Number of the planes that [`inside`](Self::inside) knows.
     pub const PLANES: usize = 5;
 }
