@@ -102,7 +102,7 @@ impl<
         self.intensities = *picture.intensities;
         let mut sums = Line::NONE;
         let Self { spans, facets, ends, .. } = self;
-        for y in 0..picture.geometry.height().min(LINES as u16) {
+        for y in (0..picture.geometry.height()).take(LINES) {
             if !lines.seek(y) {
                 break;
             }

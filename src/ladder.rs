@@ -100,7 +100,7 @@ impl<const LINES: usize> Plan<LINES> {
         let rungs = Rungs::new(prices);
         let last = 2 * prices.len().saturating_sub(1).min(3) as u8;
         let mut before = 0;
-        for y in 0..picture.geometry.height().min(LINES as u16) {
+        for y in (0..picture.geometry.height()).take(LINES) {
             let Some((known, crossing)) = self.known(&mut lines, &picture, y, before) else { break };
             before = crossing;
             let [own, rest] = known.all.by_method();

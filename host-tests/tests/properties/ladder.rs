@@ -103,8 +103,10 @@ proptest! {
     fn a_plan_without_need_changes_nothing(scene in scenes::<1>()) {
         scene.show(|picture| {
             let mut scanner = Box::<Scanner<256, Degrading>>::default();
-            let mut plan = Plan::<1024>::new();
+            // With room for more lines than numbers of 16 bits count.
+            let mut plan = Box::<Plan<0x1_0000>>::default();
             plan.make(scanner.start(picture), &PRICES, u32::MAX);
+            assert_eq!(plan.bounds().len(), picture.viewport().size.height as usize);
             let with = read::<Gray8, Degrading, 256, 1, _>(&mut scanner.start(plan.degrade(picture)));
             let mut scanner = Box::<Scanner<256>>::default();
             assert!(with == read::<Gray8, DuffBarycentric, 256, 1, _>(&mut scanner.start(picture)));

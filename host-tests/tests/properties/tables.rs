@@ -124,6 +124,11 @@ proptest! {
             let sums = short.take(scanner.start(picture));
             assert_eq!(sums.spans, whole.iter().take(7).sum::<u16>());
             assert_eq!(usize::from(short.lines()), whole.len().min(7));
+
+            // More lines than numbers of 16 bits count.
+            let mut long = Box::<Frozen<'_, 40000, 1000, 0x1_0000>>::default();
+            assert_eq!(long.take(scanner.start(picture)).spans, wanted);
+            assert_eq!(usize::from(long.lines()), whole.len());
         });
     }
 }
