@@ -1,6 +1,6 @@
 //! The active list: the triangles that cross the current line, from left to right.
 
-use core::cell::Cell;
+use core::{cell::Cell, cmp::Reverse};
 
 use heapless::Vec;
 
@@ -174,37 +174,41 @@ impl<const N: usize> ActiveList<N> {
 
     /// Takes out what is at that place. Returns its number of triangles.
     fn remove(&mut self, place: usize) -> u16 {
-        if place >= self.order.len() {
-            return 0;
-        }
-        let slot = self.order.remove(place).slot();
+        let Some(slot) = self.order.get(place).map(|span| span.slot()) else { return 0 };
         let Some(active) = self.slots.get_mut(usize::from(slot)) else { return 0 };
         active.free(self.free);
         self.free = slot;
+        let places = Cell::from_mut(self.order.as_mut_slice()).as_slice_of_cells();
+        for (place, next) in places.iter().skip(place).zip(places.iter().skip(place + 1)) {
+            place.set(next.get());
+        }
+        self.order.pop();
         active.count()
     }
 
-    /// Of all in the list and this one, the place of that whose nearest corner is farthest, of equals that with the highest
-    /// number; none if it is this one. What is left out thus depends on the picture alone.
+    /// Of all in the list and this one, the place of that of the lowest [rank]; none if it is this one. What is left out thus depends
+    /// on the picture alone.
     #[cold]
     #[inline(never)]
     fn farther_than<const L: usize>(&self, kept: Kept, geometry: &Geometry<'_, '_, L>) -> Option<usize> {
-        let rank = |ids: [TriangleId; 2]| {
-            let corners = ids.into_iter().filter_map(|id| geometry.corners(id)).flatten();
-            let [one, other] = ids;
-            (corners.map(|corner| corner.nearness()).max().unwrap_or(0), core::cmp::Reverse(one.min(other)))
-        };
-        let mut least = rank(kept.ends());
+        let mut least = rank(kept.ends(), geometry);
         let mut victim = None;
         for (place, span) in self.order.iter().enumerate() {
             let Some(active) = self.get(span.slot()) else { continue };
-            let other = rank(active.ids());
+            let other = rank(active.ids(), geometry);
             if other < least {
                 (least, victim) = (other, Some(place));
             }
         }
         victim
     }
+}
+
+/// How near the nearest corner of one triangle or two is, and of equals the lower number first.
+#[inline(never)]
+fn rank<const L: usize>([one, other]: [TriangleId; 2], geometry: &Geometry<'_, '_, L>) -> (u32, Reverse<TriangleId>) {
+    let corners = [one, other].into_iter().filter_map(|id| geometry.corners(id)).flatten();
+    (corners.fold(0, |nearest, corner| corner.nearness().max(nearest)), Reverse(one.min(other)))
 }
 
 /// Moves the last one to its place among the others, which are in order.
