@@ -238,6 +238,11 @@ fn curved<const LEVELS: u32, const LIGHTS: usize, L: LightSource>(
     shiny: bool,
 ) -> Facet<LIGHTS, L::Product> {
     let material = surface.material;
+    let exact = || Facet(Kind::Exact { shiny: shiny.into(), cosines: Steep::new(triangle, middles, shiny, gradient) });
+    let edge = triangle.edges.iter().fold(0, |most, e| most.max(*e));
+    if shiny && u32::from(edge) * u32::from(material.power.exponent()) > NARROW << 15 {
+        return exact();
+    }
     let samples = samples(triangle, middles);
     let centroid = Cosines::between(&triangle.centroid(), inverse_root(bend_at_centroid(triangle.edges)));
     let agrees = |bowed: &Bowed, exact: i32, coefficient| {
@@ -250,20 +255,18 @@ fn curved<const LEVELS: u32, const LIGHTS: usize, L: LightSource>(
     let mut shows = shiny;
     let mut specular = Bowed::default();
     if shiny && is_good {
-        let edge = triangle.edges.iter().fold(0, |most, e| most.max(*e));
         specular = Bowed::new(samples, |cosines| cosines.specular(surface));
-        let exact = centroid.specular(surface);
+        let middle = centroid.specular(surface);
         let bowed_up_to = |levels: u32| specular.bows.iter().all(|bow| within(*bow, material.specular, levels));
-        is_good = u32::from(edge) * u32::from(material.power.exponent()) <= NARROW << 15
-            && agrees(&specular, exact, material.specular)
-            && bowed_up_to(LEVELS.saturating_mul(BOW));
-        let most = specular.corners.iter().fold(exact, |most, corner| most.max(*corner));
+        is_good = agrees(&specular, middle, material.specular) && bowed_up_to(LEVELS.saturating_mul(BOW));
+        let most = specular.corners.iter().fold(middle, |most, corner| most.max(*corner));
         shows = !is_good || !within(most, material.specular, LEVELS / 2) || !bowed_up_to(LEVELS.saturating_mul(2));
     }
+    if !is_good {
+        return exact();
+    }
     let quadratic = |bowed: &Bowed| Quadratic::bowed(gradient, bowed.corners, bowed.bows, finer(LIGHTS));
-    Facet(if !is_good {
-        Kind::Exact { shiny: shiny.into(), cosines: Steep::new(triangle, middles, shiny, gradient) }
-    } else if is_linear && !shows {
+    Facet(if is_linear && !shows {
         Kind::Linear(plane::<LIGHTS>(gradient, &diffuse))
     } else {
         let diffuse = if is_linear { plane::<LIGHTS>(gradient, &diffuse).into() } else { quadratic(&diffuse) };
