@@ -182,6 +182,11 @@ pub(crate) struct Known {
     seen: u32,
     outside: u32,
     overlapping: u32,
+    /// Twos that overlap, each known by the first pixel of that which begins later.
+    twos: u32,
+    /// Those that begin over two others or more, and the number of these.
+    crowded: u32,
+    crowds: u32,
 }
 
 impl Known {
@@ -190,11 +195,19 @@ impl Known {
         self.work.active += 1;
         let (start, end) = active.extent();
         self.outside += u32::from(start < end && (start < 0 || end > width as i16));
-        let columns = active.columns(width);
-        let overlaps = !columns.is_empty() && !here.is_single(columns);
         self.seen += active.columns_of(width).iter().filter(|columns| !columns.is_empty()).count() as u32;
-        self.overlapping += u32::from(overlaps);
-        self.work.deepened += u32::from(overlaps) * u32::from(active.count());
+        let columns = active.columns(width);
+        let others = here.at(columns.start).saturating_sub(1);
+        let overlaps = !columns.is_empty() && !here.is_single(columns);
+        if overlaps {
+            self.overlapping += 1;
+            self.twos += others;
+            self.work.deepened += u32::from(active.count());
+        }
+        if overlaps && others > 1 {
+            self.crowded += 1;
+            self.crowds += others;
+        }
         overlaps
     }
 
@@ -205,7 +218,7 @@ impl Known {
         here: &Cover,
         ended: u32,
     ) -> Work {
-        let Self { mut work, seen, outside, overlapping } = self;
+        let Self { mut work, seen, outside, overlapping, twos, crowded, crowds } = self;
         let (geometry, width) = (&picture.geometry, picture.geometry.width() as u16);
         (work.walked, work.lines, work.gradients) = (1, 1, picture.background.is_gradient().into());
         // Each of those that stay may pass all others; those that start come some at a time, and each may pass the rest of these.
@@ -215,26 +228,28 @@ impl Known {
         (work.stepped, work.ended) = (work.stepped + ended, ended);
 
         let ([covered, shared], gaps) = (here.counts(), here.gaps(width));
-        // The pixels of all triangles where they overlap: each election is at one of its own, among those that cover it.
-        let overlap = here.pixels - (covered - shared);
+        // Of each pixel, the triangles behind the first one.
+        let behind = here.pixels - covered;
         work.pixels = covered;
         work.filled = u32::from(width) - covered;
         work.gaps = gaps;
         // What parts a triangle's spans is a pixel of it that is hidden.
-        work.spans = (seen + here.pixels - covered).min(covered);
+        work.spans = (seen + behind).min(covered);
         (work.runs, work.started) = (work.spans, work.spans);
         if overlapping + outside > 0 {
             // Times that the table is full.
             let full = work.spans / SPANS as u32;
-            // Two cross each other three times at most, as each may be two planes, and each that begins overlaps with all but one of
-            // those that cover its first pixel.
-            let deep = if here.is_deep() { overlapping } else { overlapping.min(2) };
-            let crossings = shared.min(overlapping.saturating_mul(deep.saturating_sub(1)).saturating_mul(3));
+            // Two cross each other three times at most, as each may be two planes.
+            let crossings = shared.min(twos.saturating_mul(3));
             // One is in front until it ends, another one begins, or it is crossed.
             work.fronts = 3 * (overlapping + outside) + crossings + 2 * full + 2;
-            let elected = (overlap + full.saturating_mul(overlapping)).min(work.fronts.saturating_mul(deep));
+            // An election is among those that cover a pixel. There is one a pixel, another one where a triangle begins there behind
+            // one that waits, and one more where the table is full.
+            let elections = work.fronts.min(shared + crowded + full);
+            let most = here.deepest().saturating_sub(1);
+            let elected = (behind + crowds + full.saturating_mul(most)).min(work.fronts.saturating_mul(most));
             // Some once more, after they ended.
-            work.looked = work.active + overlapping + outside + elected;
+            work.looked = work.active + overlapping + outside + elections + elected;
             work.compared = overlapping + 2 * elected;
         }
         work.dressed = work.spans.min(if geometry.searched() > 2 { u32::MAX } else { 1 });
@@ -243,58 +258,93 @@ impl Known {
     }
 }
 
-/// A bit for each of the 1024 pixels that a line has at most.
+/// Words with a bit for each of the 1024 pixels that a line has at most.
 const WORDS: usize = 1024 / 32;
 
-/// Pixels of a line that triangles cover.
+/// The triangles that cover each pixel of a line, counted.
 pub(crate) struct Cover {
-    /// By one or more, by two or more, and by three or more.
-    once: [u32; WORDS],
-    twice: [u32; WORDS],
-    thrice: [u32; WORDS],
-    /// The sum of all triangles'.
+    /// The count's four bits, from the lowest, of 32 pixels each; 15 are that many or more.
+    words: [[u32; 4]; WORDS],
+    /// All triangles, and the sum of their pixels.
+    triangles: u32,
     pixels: u32,
 }
 
 impl Cover {
     /// None.
-    pub(crate) const NONE: Self = Self { once: [0; WORDS], twice: [0; WORDS], thrice: [0; WORDS], pixels: 0 };
+    pub(crate) const NONE: Self = Self { words: [[0; 4]; WORDS], triangles: 0, pixels: 0 };
 
     pub(crate) fn add(&mut self, columns: Range<u16>) {
+        self.triangles += 1;
         self.pixels += columns.len() as u32;
-        let all = self.once.iter_mut().zip(&mut self.twice).zip(&mut self.thrice);
-        for (((once, twice), thrice), bits) in all.skip(first(&columns)).zip(words(columns)) {
-            *thrice |= *twice & bits;
-            *twice |= *once & bits;
-            *once |= bits;
+        for (counts, bits) in self.words.iter_mut().skip(first(&columns)).zip(words(columns)) {
+            let mut carry = bits;
+            for bit in counts.iter_mut() {
+                (*bit, carry) = (*bit ^ carry, *bit & carry);
+            }
+            for bit in counts {
+                *bit |= carry;
+            }
         }
     }
 
     /// Whether none of these pixels is covered by two.
     pub(crate) fn is_single(&self, columns: Range<u16>) -> bool {
-        self.twice.iter().skip(first(&columns)).zip(words(columns)).all(|(twice, bits)| twice & bits == 0)
+        self.words.iter().skip(first(&columns)).zip(words(columns)).all(|(counts, bits)| twice(*counts) & bits == 0)
     }
 
-    /// Whether a pixel is covered by three.
-    fn is_deep(&self) -> bool {
-        self.thrice.iter().any(|thrice| *thrice != 0)
+    /// The triangles that cover a pixel.
+    fn at(&self, x: u16) -> u32 {
+        let counts = self.words.get(usize::from(x / 32)).copied().unwrap_or_default();
+        self.known(counts.iter().rev().fold(0, |count, bits| count << 1 | (bits >> (x % 32) & 1)))
+    }
+
+    /// The triangles that cover the pixel that most cover.
+    fn deepest(&self) -> u32 {
+        let deepest = |counts: &[u32; 4]| {
+            let (count, _) = counts.iter().rev().fold((0, u32::MAX), |(count, among), bits| match among & bits {
+                0 => (count << 1, among),
+                among => (count << 1 | 1, among),
+            });
+            count
+        };
+        self.known(self.words.iter().map(deepest).max().unwrap_or(0))
+    }
+
+    /// A count that may be more than four bits say.
+    const fn known(&self, count: u32) -> u32 {
+        if count < 15 {
+            count
+        } else {
+            self.triangles
+        }
     }
 
     /// Pixels covered by one or more, and by two or more.
     pub(crate) fn counts(&self) -> [u32; 2] {
-        [&self.once, &self.twice].map(|words| words.iter().map(|word| word.count_ones()).sum())
+        [once, twice].map(|some| self.words.iter().map(|counts| some(*counts).count_ones()).sum())
     }
 
     /// Gaps between covered pixels in a line of that width.
     fn gaps(&self, width: u16) -> u32 {
         let (mut gaps, mut before) = (0, 1);
-        for (once, bits) in self.once.iter().zip(words(0..width)) {
+        for (once, bits) in self.words.iter().map(|counts| once(*counts)).zip(words(0..width)) {
             let starts = !once & bits & (once << 1 | before);
             gaps += starts.count_ones();
             before = once >> 31;
         }
         gaps
     }
+}
+
+/// Of 32 pixels, those that one triangle or more cover.
+fn once([ones, twos, fours, eights]: [u32; 4]) -> u32 {
+    ones | twos | fours | eights
+}
+
+/// Those that two or more cover.
+fn twice([_, twos, fours, eights]: [u32; 4]) -> u32 {
+    twos | fours | eights
 }
 
 /// The first word that has one of these pixels.

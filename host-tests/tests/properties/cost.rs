@@ -1,6 +1,7 @@
 //! What lines cost is known beforehand: bounds before they are resolved, counts after, and how far ahead they must be drawn.
 
-use beamshade::{Baked, Frozen, Picture, Price, Scanner, Schedule, Work};
+use beamshade::{Baked, Camera, Frozen, Picture, Price, Scanner, Schedule, Work};
+use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb565;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -91,6 +92,15 @@ proptest! {
     fn no_line_has_more_to_do_than_was_known(scene in scenes::<1>(), (soup, _) in soups()) {
         scene.show(check);
         soup.show(check);
+    }
+
+    /// Where all that there is begins on the same few pixels.
+    #[test]
+    fn nor_where_many_begin_at_once(scenes in vec(soups(), 12), width in 1..=3_u32) {
+        let (mut scene, _) = scenes[0].clone();
+        scene.objects = scenes.into_iter().flat_map(|(scene, _)| scene.objects).take(8).collect();
+        scene.camera = Camera::new(Size::new(width, 20)).at_distance(3.0);
+        scene.show(check);
     }
 
     #[test]
