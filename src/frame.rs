@@ -115,9 +115,9 @@ pub enum Full {
     },
     /// No room for all triangles of the object that face the eye: the later ones are left out.
     Triangles {
-        /// Triangles of the object that fitted.
+        /// Triangles of the object that fitted, clipped ones among them.
         fitted: u16,
-        /// Triangles of the object that did not.
+        /// Triangles of the object that did not, such as were to be clipped among them.
         left_out: u16,
     },
     /// No room for all triangles, or their corners, that clipping makes of the object: the later ones are left out.
@@ -225,7 +225,7 @@ impl<
         let data = mesh.data();
         let projection = self.camera.project(mesh, pose);
         let sight = projection.sight(data.center, data.radius);
-        if matches!(sight, Sight::Hidden) {
+        if matches!(sight, Sight::Hidden) || data.triangles.is_empty() {
             return Ok(());
         }
         let first_vertex = self.used as u16;
@@ -318,7 +318,7 @@ impl<
         }
         let Tally { sorted: Sorted { fitted, left_out }, made, unmade } = tally;
         if left_out > 0 {
-            Err(Full::Triangles { fitted, left_out })
+            Err(Full::Triangles { fitted: fitted + made, left_out: left_out + unmade })
         } else if unmade > 0 {
             Err(Full::Made { fitted: made, left_out: unmade })
         } else {

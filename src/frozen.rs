@@ -29,8 +29,8 @@ use crate::{
 ///
 /// It borrows nothing but meshes, `'m`: while it is shown, the next frame is made and scanned, and taken into another one. As
 /// `&'static mut` they change places through [`heapless::spsc`] queues: a picture that is late leaves the last one on the screen,
-/// never half of it. Takes 6 bytes a span, 2 a line, and for each visible triangle its facet and 8 bytes; about 52 kB for 240 lines
-/// of a teapot of 880 triangles.
+/// never half of it. Takes 6 bytes a span, 2 a line, and a facet and 8 bytes for each visible triangle, and for both of a pair that
+/// [shares](crate::Shade::pair) one; about 52 kB for 240 lines of a teapot of 880 triangles.
 #[derive(Clone, Debug)]
 pub struct Frozen<
     'm,

@@ -1,6 +1,6 @@
 //! Out of room: what is said, and what is still drawn.
 
-use beamshade::{Background, Camera, Color, DuffBarycentric, Frame, Full, Light, Pose, Scanner};
+use beamshade::{Background, Camera, Color, DuffBarycentric, Frame, Full, LeanFrame, Light, Pose, Scanner};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
 use host_tests::library::read;
@@ -162,4 +162,37 @@ proptest! {
             lines.spans(24, |_, source| assert!(nearest[usize::from(source.object)] > 0.2, "{source:?}"));
         });
     }
+}
+
+#[test]
+fn a_mesh_of_nothing_hides_nothing() {
+    // All numbers of vertices are taken before it.
+    let mut shape = Shape::plain(vec![[0; 3]; 0xffff], vec![[0, 1, 2]]);
+    (shape.positions[1], shape.positions[2]) = ([9000, 0, 0], [0, 9000, 0]);
+    let shapes = [shape, Shape::plain(vec![[0; 3]], vec![]), Shape { radius: 100, ..Shape::plain(vec![], vec![]) }];
+    let meshes = shapes.each_ref().map(Shape::mesh);
+    let camera = Camera::new(Size::new(64, 48));
+    let mut lean = Box::<LeanFrame<'_, 8, 48, 1, 3>>::default();
+    let mut stored = Box::<Frame<'_, 0x1_0000, 8, 48, 1, 3>>::default();
+    lean.begin(&camera, &[Light::OFF]).unwrap();
+    stored.begin(&camera, &[Light::OFF]).unwrap();
+    for mesh in &meshes {
+        lean.add(mesh, &Pose::IDENTITY).unwrap();
+        stored.add(mesh, &Pose::IDENTITY).unwrap();
+    }
+    let expected = Scanner::<8>::new().start(stored.picture()).pick(33, 22);
+    assert!(expected.is_some());
+    assert_eq!(Scanner::<8>::new().start(lean.picture()).pick(33, 22), expected);
+}
+
+#[test]
+fn what_is_not_clipped_counts_beside_what_has_no_room() {
+    let before = |x: i16| [[x, -300, 0], [x + 400, -300, 0], [x, 300, 0]];
+    let around = |x: i16| [[x, -300, 0], [x + 400, -300, 0], [x, 300, 32000]];
+    let positions = [before(-900), before(0), before(900), around(-400), around(400)].as_flattened().to_vec();
+    let shape = Shape::plain(positions, (0..5).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect());
+    let (mesh, camera) = (shape.mesh(), Camera::new(Size::new(64, 48)).at_distance(0.5));
+    let mut frame = Box::<LeanFrame<'_, 2, 48>>::default();
+    frame.begin(&camera, &[Light::OFF]).unwrap();
+    assert_eq!(frame.add(&mesh, &Pose::IDENTITY), Err(Full::Triangles { fitted: 2, left_out: 3 }));
 }
