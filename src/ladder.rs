@@ -99,18 +99,22 @@ impl<const LINES: usize> Plan<LINES> {
         (self.middle, self.late) = (middle(&picture), 0);
         let rungs = Rungs::new(prices);
         let last = 2 * prices.len().saturating_sub(1).min(3) as u8;
-        let mut before = 0;
+        let mut descent = Descent { picture: &picture, middle: self.middle, here: Cover::NONE, near: Cover::NONE, above: 0 };
         for y in (0..picture.geometry.height()).take(LINES) {
-            let Some((known, crossing)) = self.known(&mut lines, &picture, y, before) else { break };
-            before = crossing;
-            let [own, rest] = known.all.by_method();
-            let (near, far, rest) = (known.near, own - known.near, rungs.rest.sixteenths(rest));
-            // So many steps down the ladder near triangles are on this rung or below, far ones on that or below.
-            let bound_at = |step: u8| cycles([rungs.of(step / 2, near), rungs.of(step.div_ceil(2), far), rest]);
-            let (mut step, mut bound) = (0, bound_at(0));
+            let Some(Halves { all, near }) = descent.line(&mut lines, y) else { break };
+            let [own, rest] = all.by_method();
+            let (far, rest) = (own - near, rungs.rest.sixteenths(rest));
+            let (mut of_near, mut of_far) = (rungs.of(0, near), rungs.of(0, far));
+            let (mut step, mut bound) = (0, cycles([of_near, of_far, rest]));
             while bound > period && step < last {
                 step += 1;
-                bound = bound_at(step);
+                // To each rung far triangles go first.
+                if step % 2 == 1 {
+                    of_far = rungs.of(step / 2 + 1, far);
+                } else {
+                    of_near = rungs.of(step / 2, near);
+                }
+                bound = cycles([of_near, of_far, rest]);
             }
             self.late = self.late.saturating_add((bound > period).into());
             // There is room for both.
@@ -146,26 +150,46 @@ impl<const LINES: usize> Plan<LINES> {
     ) -> Picture<'f, 'm, LIGHTS, L> {
         Picture { steps: Steps { steps: &self.steps, middle: self.middle }, ..picture }
     }
+}
 
-    /// What is known of a line, and the number of triangles that cross it, given that of the line above.
-    fn known<const ACTIVE: usize, S: Shade<LIGHTS, L>, const LIGHTS: usize, L: LightSource, V: Visibility>(
-        &self,
+impl<const LINES: usize> Default for Plan<LINES> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// A walk down a picture from line to line, without comparing depths or shading.
+struct Descent<'p, 'f, 'm, const LIGHTS: usize, L: LightSource> {
+    picture: &'p Picture<'f, 'm, LIGHTS, L>,
+    /// What is nearer is near.
+    middle: u16,
+    /// What covers the line: all triangles, and the near ones.
+    here: Cover,
+    near: Cover,
+    /// How many cross the line above.
+    above: u32,
+}
+
+impl<const LIGHTS: usize, L: LightSource> Descent<'_, '_, '_, LIGHTS, L> {
+    /// What is known of line y, the next one; none below the picture.
+    fn line<const ACTIVE: usize, S: Shade<LIGHTS, L>, V: Visibility>(
+        &mut self,
         lines: &mut Lines<'_, '_, ACTIVE, S, LIGHTS, L, V>,
-        picture: &Picture<'_, '_, LIGHTS, L>,
         y: u16,
-        before: u32,
-    ) -> Option<(Halves, u32)> {
+    ) -> Option<Halves> {
+        let Self { picture, middle, here, near, above } = self;
         let geometry = &picture.geometry;
         let width = geometry.width() as u16;
         let (extents, slots) = lines.crossing(y)?;
-        let (mut here, mut near) = (Cover::NONE, Cover::NONE);
-        let is_far = |active: &Active| {
-            let [_, near] = active.reach();
-            near <= i32::from(self.middle)
+        let is_near = |active: &Active| {
+            let [_, nearest] = active.reach();
+            nearest > i32::from(*middle)
         };
+        here.clear();
+        near.clear();
         for active in extents.iter().filter_map(|extent| slots.get(usize::from(extent.slot()))) {
             here.add(active.columns(width));
-            if !is_far(active) {
+            if is_near(active) {
                 near.add(active.columns(width));
             }
         }
@@ -174,12 +198,17 @@ impl<const LINES: usize> Plan<LINES> {
         known.work.entered = geometry.starting(y).count() as u32;
         for extent in extents {
             let Some(active) = slots.get_mut(usize::from(extent.slot())) else { continue };
-            let overlaps = known.add(active, &here, width);
-            let outline = picture.outline(active.ids());
-            known.work.turned += u32::from(outline.turns(y));
-            known.work.long += outline.long(y);
-            let (is_near, columns, count) = (!is_far(active), active.columns_of(width), active.count());
-            // Until now no facets were set up: their numbers say what is known of each triangle.
+            let overlaps = known.add(active, here, width);
+            // No facets are set up: their numbers say what is known of each triangle, the first one also of both.
+            let turns_next = active.turns(u32::from(y) + 1);
+            let [both, _] = &mut active.facets;
+            let (is_there, turns) = (*both & THERE != 0, *both & TURNS != 0);
+            *both = *both & !TURNS | THERE | if turns_next { TURNS } else { 0 };
+            known.work.turned += u32::from(turns);
+            if turns || !is_there {
+                known.work.long += picture.outline(active.ids()).long(y);
+            }
+            let (is_near, columns, count) = (is_near(active), active.columns_of(width), active.count());
             for (half, columns) in (0..usize::from(count)).zip(columns) {
                 let mut facet = active.facets.get(half).copied().unwrap_or(0);
                 if overlaps && facet & EXACT_KNOWN == 0 {
@@ -192,7 +221,7 @@ impl<const LINES: usize> Plan<LINES> {
                     known.work.asked += u32::from(lines);
                     near_facets += u32::from(is_near);
                 }
-                if !columns.is_empty() && here.is_single(columns) {
+                if !columns.is_empty() && (!overlaps || here.is_single(columns)) {
                     facet |= SEEN;
                 }
                 if let Some(room) = active.facets.get_mut(half) {
@@ -200,27 +229,24 @@ impl<const LINES: usize> Plan<LINES> {
                 }
             }
         }
-        let crossing = known.work.active;
-        known.work.stepped = crossing.saturating_sub(known.work.entered);
-        let ended = before.saturating_sub(known.work.stepped);
-        let all = known.finish(picture, &here, ended);
+        known.work.stepped = known.work.active.saturating_sub(known.work.entered);
+        let ended = above.saturating_sub(known.work.stepped);
+        *above = known.work.active;
+        let all = known.finish(picture, here, ended);
         let [pixels, _] = near.counts();
         let spans = all.spans.min(pixels);
         let near = Work { facets: near_facets, spans, started: spans, runs: spans, pixels, ..Work::NONE };
-        Some((Halves { all, near }, crossing))
+        Some(Halves { all, near })
     }
 }
 
-impl<const LINES: usize> Default for Plan<LINES> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-/// What a plan knows of a triangle: that it is seen, so that its facet is there; and whether its depths take 64-bit divisions.
+/// What is known of a triangle: that it is seen, so that its facet is there; and whether its depths take 64-bit divisions.
 const SEEN: u16 = 1;
 const EXACT_KNOWN: u16 = 2;
 const EXACT: u16 = 4;
+/// Of one or both that make a pair: that it crosses the line above; and that it turns on this one.
+const THERE: u16 = 8;
+const TURNS: u16 = 16;
 
 /// What a line has at most to do, and of that what is, at most, for near triangles.
 struct Halves {

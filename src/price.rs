@@ -32,11 +32,7 @@ impl Price {
 
     /// The same in sixteenths of a cycle.
     pub(crate) fn sixteenths(&self, work: Work) -> u32 {
-        let Self(prices) = self;
-        let parts = work.counts().into_iter().zip(prices.counts());
-        // Many counts are 0, and a product that tells whether it fits is a call where there is no long multiplication.
-        let parts = parts.filter(|(count, _)| *count > 0);
-        parts.fold(0, |sum: u32, (count, price)| sum.saturating_add(count.saturating_mul(price)))
+        work.at(&self.0)
     }
 
     /// What a line with at most so much to do takes at most: pixels of whatever kind, known before facets are set up, being of the

@@ -31,6 +31,18 @@ macro_rules! work {
             }
         }
 
+        impl Work {
+            /// The sum of all counts, each times its price.
+            pub(crate) fn at(&self, prices: &Self) -> u32 {
+                let mut sum = 0;
+                // Many counts are 0.
+                $(if self.$name > 0 {
+                    sum = with_product(sum, self.$name, prices.$name);
+                })*
+                sum
+            }
+        }
+
         impl From<[u32; Work::COUNT]> for Work {
             fn from(counts: [u32; Work::COUNT]) -> Self {
                 Self::of(counts)
@@ -112,6 +124,12 @@ work! {
     pixels_2,
     /// and the fourth.
     pixels_3,
+}
+
+/// A sum and a product more; out of line, as it is where there is no long multiplication.
+#[inline(never)]
+fn with_product(sum: u32, count: u32, price: u32) -> u32 {
+    sum.saturating_add(count.saturating_mul(price))
 }
 
 impl Work {

@@ -265,6 +265,8 @@ const WORDS: usize = 1024 / 32;
 pub(crate) struct Cover {
     /// The count's four bits, from the lowest, of 32 pixels each; 15 are that many or more.
     words: [[u32; 4]; WORDS],
+    /// The words from which on no pixel is covered.
+    end: usize,
     /// All triangles, and the sum of their pixels.
     triangles: u32,
     pixels: u32,
@@ -272,14 +274,24 @@ pub(crate) struct Cover {
 
 impl Cover {
     /// None.
-    pub(crate) const NONE: Self = Self { words: [[0; 4]; WORDS], triangles: 0, pixels: 0 };
+    pub(crate) const NONE: Self = Self { words: [[0; 4]; WORDS], end: 0, triangles: 0, pixels: 0 };
+
+    /// Back to none.
+    pub(crate) fn clear(&mut self) {
+        self.words.iter_mut().take(self.end).for_each(|counts| *counts = [0; 4]);
+        (self.end, self.triangles, self.pixels) = (0, 0, 0);
+    }
 
     pub(crate) fn add(&mut self, columns: Range<u16>) {
         self.triangles += 1;
         self.pixels += columns.len() as u32;
+        self.end = self.end.max(columns.end.div_ceil(32).into());
         for (counts, bits) in self.words.iter_mut().skip(first(&columns)).zip(words(columns)) {
             let mut carry = bits;
             for bit in counts.iter_mut() {
+                if carry == 0 {
+                    break;
+                }
                 (*bit, carry) = (*bit ^ carry, *bit & carry);
             }
             for bit in counts {
@@ -289,6 +301,7 @@ impl Cover {
     }
 
     /// Whether none of these pixels is covered by two.
+    #[inline(never)]
     pub(crate) fn is_single(&self, columns: Range<u16>) -> bool {
         self.words.iter().skip(first(&columns)).zip(words(columns)).all(|(counts, bits)| twice(*counts) & bits == 0)
     }
@@ -308,7 +321,7 @@ impl Cover {
             });
             count
         };
-        self.known(self.words.iter().map(deepest).max().unwrap_or(0))
+        self.known(self.covered().map(deepest).max().unwrap_or(0))
     }
 
     /// A count that may be more than four bits say.
@@ -320,9 +333,15 @@ impl Cover {
         }
     }
 
+    /// The words up to the last pixel that is covered.
+    fn covered(&self) -> impl Iterator<Item = &[u32; 4]> {
+        self.words.iter().take(self.end)
+    }
+
     /// Pixels covered by one or more, and by two or more.
+    #[inline(never)]
     pub(crate) fn counts(&self) -> [u32; 2] {
-        [once, twice].map(|some| self.words.iter().map(|counts| some(*counts).count_ones()).sum())
+        [once, twice].map(|some| self.covered().map(|counts| some(*counts).count_ones()).sum())
     }
 
     /// Gaps between covered pixels in a line of that width.
