@@ -6,8 +6,9 @@ use beamshade::math::{
     piecewise::PiecewisePower,
     power::Power,
     product::scale,
+    quotient::{floor, fraction, quotient},
     reciprocal::{rough, Reciprocal},
-    root::{inverse_root, near_inverse_root, square_root, ReciprocalRoot},
+    root::{integer_root, inverse_root, near_inverse_root, square_root, ReciprocalRoot},
     rotation::Rotation,
     screen::{area, first_at},
     vector::Vector,
@@ -164,6 +165,34 @@ fn square_roots() {
 }
 
 const CIRCLE: f64 = 4_294_967_296.0;
+
+/// Numbers at which something may go wrong: powers of two and of three, sums and products of them, each with its neighbours.
+fn edgy() -> impl Iterator<Item = u64> + Clone {
+    let powers = (0..64).map(|bits| 1 << bits).chain((0..40).map(|power| 3_u64.pow(power)));
+    let sums = powers.clone().flat_map(|n| [n, n.wrapping_mul(n.wrapping_add(2)), n ^ 0x1234_5678_9abc_def0]);
+    sums.flat_map(|n| [n.wrapping_sub(1), n, n.wrapping_add(1)])
+}
+
+#[test]
+fn quotients_are_those_of_the_compiler() {
+    for (n, d) in edgy().flat_map(|n| edgy().map(move |d| (n, d))) {
+        assert_eq!(quotient(n, d), n.checked_div(d).unwrap_or(0), "{n} / {d}");
+        let signed = n.cast_signed();
+        if let Some(divisor) = i64::try_from(d).ok().filter(|divisor| *divisor > 1) {
+            assert_eq!(floor(signed, d), signed.div_euclid(divisor), "{signed} / {d}");
+        }
+        if let (Ok(part @ ..=0x7fff_ffff), Ok(whole @ 1..=0x7fff_ffff)) = (u32::try_from(n.min(d)), u32::try_from(d)) {
+            assert_eq!(u64::from(fraction(part, whole)), (u64::from(part) << 30) / u64::from(whole), "{part} / {whole}");
+        }
+    }
+}
+
+#[test]
+fn integer_roots_are_those_of_the_compiler() {
+    for x in edgy() {
+        assert_eq!(u64::from(integer_root(x)), x.isqrt(), "{x}");
+    }
+}
 
 #[test]
 fn arc_cosines() {

@@ -10,7 +10,10 @@ impl Turn {
     /// The angle of so many degrees, rounded to 2⁻³² of a circle.
     #[must_use]
     pub const fn degrees(degrees: i32) -> Self {
-        Self((((degrees.rem_euclid(360) as u64) << 32) / 360) as u32)
+        const DEGREE: u32 = ((1 << 32) / 360_u64) as u32;
+        const REST: u32 = ((1 << 32) % 360_u64) as u32;
+        let degrees = degrees.rem_euclid(360) as u32;
+        Self(degrees * DEGREE + degrees * REST / 360)
     }
 
     /// The angle of so many radians, −2²⁰ to 2²⁰, to an `f32`'s precision; what lies outside saturates, NaN is 0.
@@ -36,12 +39,12 @@ impl Turn {
         let quarter = self.0.wrapping_add(1 << 29) >> 30;
         let rest = self.0.wrapping_sub(quarter << 30) as i32 as i64;
         let x = (rest * QUARTER) >> 30;
-        let square = (x * x) >> 30;
-        let sin = mul(x, series(square, [2 * 3, 4 * 5, 6 * 7, 8 * 9]));
+        let square = ((x * x) >> 30) as u32;
+        let sin = (x * series(square, [2 * 3, 4 * 5, 6 * 7, 8 * 9]) as i64 + (1 << 29)) >> 30;
         let cos = series(square, [2, 3 * 4, 5 * 6, 7 * 8]);
         // The cosine's fifth term; the sine's is too small to matter.
-        let fourth = (square * square) >> 30;
-        let cos = cos - ((((fourth * fourth) >> 30) * square) >> 30) / 3_628_800;
+        let fourth = floor_mul(square, square);
+        let cos = cos - floor_mul(floor_mul(fourth, fourth), square) / 3_628_800;
         let (sin, cos) = (sin as i32, cos as i32);
         match quarter & 3 {
             0 => (sin, cos),
@@ -85,9 +88,9 @@ impl Turn {
     }
 }
 
-/// `1 − s/a·(1 − s/b·(1 − s/c·(1 − s/d)))` in Q30.
-const fn series(square: i64, [a, b, c, d]: [i64; 4]) -> i64 {
-    const ONE: i64 = 1 << 30;
+/// `1 − s/a·(1 − s/b·(1 − s/c·(1 − s/d)))` in Q30, s below one.
+const fn series(square: u32, [a, b, c, d]: [u32; 4]) -> u32 {
+    const ONE: u32 = 1 << 30;
     let inner = ONE - part(square, d);
     let inner = ONE - part(mul(square, inner), c);
     let inner = ONE - part(mul(square, inner), b);
@@ -95,15 +98,21 @@ const fn series(square: i64, [a, b, c, d]: [i64; 4]) -> i64 {
 }
 
 /// A quotient that cannot panic, even where the compiler does not see that the divisor is a constant.
-const fn part(whole: i64, parts: i64) -> i64 {
+const fn part(whole: u32, parts: u32) -> u32 {
     match whole.checked_div(parts) {
         Some(part) => part,
         None => 0,
     }
 }
 
-const fn mul(a: i64, b: i64) -> i64 {
-    (a * b + (1 << 29)) >> 30
+/// The product of two Q30 numbers, rounded to nearest.
+const fn mul(a: u32, b: u32) -> u32 {
+    ((a as u64 * b as u64 + (1 << 29)) >> 30) as u32
+}
+
+/// The same, rounded down.
+const fn floor_mul(a: u32, b: u32) -> u32 {
+    ((a as u64 * b as u64) >> 30) as u32
 }
 
 impl core::ops::Add for Turn {

@@ -27,6 +27,7 @@ pub mod piecewise;
 pub mod power;
 pub mod product;
 pub mod quadratic;
+pub mod quotient;
 pub mod reciprocal;
 pub mod root;
 pub mod rotation;

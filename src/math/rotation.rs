@@ -43,16 +43,19 @@ impl Rotation {
     }
 
     /// The turned vector.
+    #[inline(never)]
     #[must_use]
-    pub fn turn(self, vector: Vector) -> Vector {
+    pub fn turn(&self, vector: Vector) -> Vector {
         Vector(self.0.map(|row| row.dot(vector)))
     }
 }
 
 impl core::ops::Mul for Rotation {
     type Output = Self;
+
+    #[inline(never)]
     fn mul(self, first: Self) -> Self {
-        let columns = first.inverse().0;
-        Self(self.0.map(|row| Vector(columns.map(|column| row.dot(column)))))
+        let back = first.inverse();
+        Self(self.0.map(|row| back.turn(row)))
     }
 }

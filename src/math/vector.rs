@@ -2,8 +2,9 @@
 
 use super::{
     product::{mul_high, scale},
+    quotient::fraction,
     reciprocal::Reciprocal,
-    root::inverse_root,
+    root::{integer_root, inverse_root},
 };
 
 /// A vector with Q30 components (one is 2³⁰), each from −2 to 2.
@@ -16,13 +17,12 @@ impl Vector {
     /// Relative error of each component below 2⁻²⁸ where the largest exceeds 2⁻⁸ in its unit.
     #[must_use]
     pub fn unit(components: [i64; 3]) -> Option<Self> {
-        let largest = components.iter().fold(0, |largest: u64, c| largest.max(c.unsigned_abs()));
+        let largest = components.iter().fold(0, |largest, c| largest | c.unsigned_abs());
         // Bring the largest to 30 bits: the sum of squares then fits 62.
-        let up = largest.leading_zeros() as i32 - 34;
-        let [x, y, z] = components.map(|c| if up >= 0 { c << up } else { c >> -up });
-        let length = ((x * x + y * y + z * z) as u64).isqrt() as i64;
-        let [x, y, z] = [x, y, z].map(|c| (c << 30).checked_div(length).map(|q| q as i32));
-        Some(Self([x?, y?, z?]))
+        let up = largest.leading_zeros().saturating_sub(1);
+        let components = components.map(|c| ((c << up) >> 33) as i32);
+        let length = integer_root(dot_64(components, components) as u64);
+        (length > 0).then(|| Self(components.map(|c| c.signum() * fraction(c.unsigned_abs(), length) as i32)))
     }
 
     /// The unit vector in the direction of (x, y, z); none for the null vector. NaN counts as 0.
@@ -32,13 +32,10 @@ impl Vector {
     }
 
     /// The scalar product, Q30; wraps beyond ±2.
-    ///
-    /// A function of its own: in 64 bits it is long on small processors, and a frame's objects need many.
     #[inline(never)]
     #[must_use]
     pub fn dot(self, other: Self) -> i32 {
-        let ([a, b, c], [d, e, f]) = (self.0.map(i64::from), other.0.map(i64::from));
-        ((a * d + b * e + c * f + (1 << 29)) >> 30) as i32
+        ((dot_64(self.0, other.0) + (1 << 29)) >> 30) as i32
     }
 }
 
@@ -91,6 +88,16 @@ pub fn turned(vector: [i16; 3], from: [i32; 3], to: [i32; 3]) -> [i16; 3] {
         *turned = turned.wrapping_add((way.wrapping_add(1 << 15) >> 16) as i16);
     }
     turned
+}
+
+/// The scalar product in 64 bits, the sum wrapping.
+///
+/// A function of its own: it is long on small processors, and a frame's objects need many.
+#[inline(never)]
+#[must_use]
+pub fn dot_64(a: [i32; 3], b: [i32; 3]) -> i64 {
+    let ([a, b, c], [d, e, f]) = (a.map(i64::from), b.map(i64::from));
+    (a * d).wrapping_add(b * e).wrapping_add(c * f)
 }
 
 /// The scalar product, wrapping.

@@ -9,9 +9,10 @@ use super::{mesh::Mesh, pose::Pose, projection::Projection};
 use crate::math::{
     angle::Turn,
     length,
+    quotient::quotient,
     rotation::Rotation,
     screen::{LARGEST, SUBPIXELS},
-    vector::Vector,
+    vector::{dot_64, Vector},
     Length,
 };
 
@@ -165,10 +166,10 @@ impl Camera {
         let size = self.viewport().size;
         let height = if self.quarters & 1 == 0 { size.height } else { size.width * self.sublines() };
         let (sin, cos) = self.field_of_view.half().sin_cos();
-        let half_height = i64::from(height) * i64::from(SUBPIXELS) / 2;
-        // 1° to 85°: the sine is positive. The largest focal length, 29 heights, fits 24 bits.
-        let sin = i64::from(sin.max(1));
-        ((half_height * i64::from(cos) + sin / 2).checked_div(sin).unwrap_or(1)).max(1) as u32
+        let half_height = u64::from(height) * SUBPIXELS as u64 / 2;
+        // 1° to 85°: both are positive. The largest focal length, 29 heights, fits 24 bits.
+        let [sin, cos] = [sin, cos].map(|part| part.max(1) as u64);
+        quotient(half_height * cos + sin / 2, sin).max(1) as u32
     }
 
     /// The unit vector to the viewer at infinity, in the world.
@@ -189,18 +190,12 @@ impl Camera {
         let Rotation([right, down, forward]) = self.panel() * self.rotation.inverse();
         // Where sublines are closer together than columns, all is narrower and the focal length greater.
         let to_eye = Rotation([Vector(right.0.map(|c| c >> u32::from(self.is_fine))), down, forward]);
-        let apart = |i: usize| {
-            let from = self.position.get(i).map_or(0, |p| i64::from(p.to_bits()));
-            pose.position.get(i).map_or(0, |p| i64::from(p.to_bits())) - from
-        };
+        let ([x, y, z], [ex, ey, ez]) = (pose.position, self.position);
+        let apart = [(x, ex), (y, ey), (z, ez)].map(|(place, eye)| place.saturating_sub(eye).to_bits());
         Projection::new(
             to_eye * pose.rotation,
             i64::from(pose.scale.to_bits()).max(0) * i64::from(mesh.data.extent.to_bits()),
-            to_eye.0.map(|row| {
-                let [x, y, z] = row.0.map(i64::from);
-                // Q30 · Q16 to Q20.
-                (x * apart(0) + y * apart(1) + z * apart(2)) >> 26
-            }),
+            to_eye.0.map(|row| along(row, apart)),
             self.near,
             self.focal(),
             self.viewport().size,
@@ -213,4 +208,11 @@ impl Camera {
         let quarter = Turn(u32::from(self.quarters) << 30);
         Rotation::z(quarter) * half_turn
     }
+}
+
+/// How far along a row of a rotation a place is that is so far away in the world; I12F20, clamped.
+#[inline(never)]
+fn along(row: Vector, apart: [i32; 3]) -> i32 {
+    // Q30 · Q16.
+    (dot_64(row.0, apart) >> 26).clamp(-(1 << 30), 1 << 30) as i32
 }

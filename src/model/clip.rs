@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::projection::{Eye, Projection};
-use crate::math::{vector::Vector, weights::Weights};
+use crate::math::{quotient::fraction, vector::Vector, weights::Weights};
 
 /// A corner of what is left of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,11 +54,11 @@ pub fn clip(projection: &Projection, triangle: [Corner; 3]) -> Polygon {
 
 /// Where the edge from a corner inside to one outside meets the plane.
 fn between(inside: Corner, near: i64, outside: Corner, far: i64) -> Corner {
-    // near ≥ 0 > far. The part of the way in Q30, from distances brought below 2³².
+    // near ≥ 0 > far. The part of the way in Q30, from distances brought below 2³¹.
     let way = near - far;
-    let down = (32 - way.leading_zeros() as i32).max(0);
-    let part = ((near >> down) << 30).checked_div(way >> down).unwrap_or(0).clamp(0, 1 << 30);
-    let mix = |a: i32, b: i32| a.wrapping_add((((i64::from(b) - i64::from(a)) * part) >> 30) as i32);
+    let down = 33_u32.saturating_sub(way.leading_zeros());
+    let part = fraction((near >> down) as u32, (way >> down) as u32);
+    let mix = |a: i32, b: i32| a.wrapping_add((((i64::from(b) - i64::from(a)) * i64::from(part)) >> 30) as i32);
     let [ax, ay, az] = inside.eye;
     let [bx, by, bz] = outside.eye;
     let [nx, ny, nz] = inside.normal.map(i32::from);
@@ -67,7 +67,7 @@ fn between(inside: Corner, near: i64, outside: Corner, far: i64) -> Corner {
     let normal = [(nx, ox), (ny, oy), (nz, oz)].map(|(n, o)| i64::from(mix(n << 16, o << 16)));
     let unit = Vector::unit(normal);
     let normal = unit.map_or(inside.normal, |unit| unit.0.map(|c| ((c + (1 << 15)) >> 16) as i16));
-    let weights = inside.weights.towards(outside.weights, part as u32);
+    let weights = inside.weights.towards(outside.weights, part);
     Corner { eye: [mix(ax, bx), mix(ay, by), mix(az, bz)], normal, vertex: None, weights }
 }
 

@@ -1,6 +1,6 @@
 //! Where an object stands.
 
-use crate::math::{angle::Turn, length, rotation::Rotation, vector::Vector, Length};
+use crate::math::{angle::Turn, length, quotient::quotient, rotation::Rotation, vector::Vector, Length};
 
 /// Rotation, then uniform scale, then translation: from a mesh's space to the world's.
 ///
@@ -53,11 +53,11 @@ impl Pose {
         // Q16 over Q32.
         let size = i64::from(self.scale.to_bits()) * i64::from(extent.to_bits());
         turned.map(|c| {
-            let place = (i64::from(c) << 32).checked_div(size.max(1)).unwrap_or(0);
-            place.clamp(-FARTHEST, FARTHEST) as i32
+            let place = quotient(u64::from(c.unsigned_abs()) << 32, size.max(1) as u64).min(FARTHEST);
+            c.signum() * place as i32
         })
     }
 }
 
 /// So far that the direction changes no more: 2¹⁴ extents.
-const FARTHEST: i64 = 1 << 30;
+const FARTHEST: u64 = 1 << 30;

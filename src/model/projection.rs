@@ -4,8 +4,10 @@ use embedded_graphics::geometry::{Point, Size};
 
 use crate::math::{
     reciprocal::Reciprocal,
+    root::integer_root,
     rotation::Rotation,
     screen::{GUARD, SUBPIXELS},
+    vector::{dot_64, Vector},
     Length,
 };
 
@@ -42,15 +44,17 @@ struct Row {
 }
 
 impl Row {
-    /// From a row in Q28 and a translation.
-    fn new(row: [i32; 3], translation: i32) -> Self {
+    /// From a row times a factor below one in 32 bits, Q28 once that many bits are dropped, and a translation.
+    #[inline(never)]
+    fn new(row: [i32; 3], factor: u32, drop: u32, translation: i32) -> Self {
+        let row = row.map(|m| ((i64::from(m) * i64::from(factor)) >> 32) as i32 >> drop);
         Self { high: row.map(|m| m >> 14), low: row.map(|m| m & 0x3fff), translation }
     }
 
     /// The row in Q28.
-    fn full(&self) -> [i64; 3] {
+    fn full(&self) -> [i32; 3] {
         let ([a, b, c], [d, e, f]) = (self.high, self.low);
-        [(a, d), (b, e), (c, f)].map(|(high, low)| (i64::from(high) << 14) + i64::from(low))
+        [(a, d), (b, e), (c, f)].map(|(high, low)| (high << 14) + low)
     }
 
     /// The position along this row, `drop` bits fewer than Q29.
@@ -146,17 +150,18 @@ pub struct Projection {
 impl Projection {
     /// From rotation, scale (world units for 1.0 of the mesh's positions, Q32), translation (I12F20), near plane, focal length in
     /// subpixels, and size of the picture.
-    pub(super) fn new(rotation: Rotation, scale: i64, translation: [i64; 3], near: Length, focal: u32, size: Size) -> Self {
+    pub(super) fn new(rotation: Rotation, scale: i64, translation: [i32; 3], near: Length, focal: u32, size: Size) -> Self {
         // scale = mantissa · 2^(exponent − 32), the mantissa below one in 32 bits.
         let scale = (scale as u64).min((512 << 32) - 1);
         let zeros = scale.leading_zeros() as i32;
         let exponent = 32 - zeros;
-        let mantissa = (if zeros <= 32 { scale >> (32 - zeros) } else { scale << (zeros - 32).min(31) }) as i64;
+        let mantissa = (if zeros <= 32 { scale >> (32 - zeros) } else { scale << (zeros - 32).min(31) }) as u32;
         let near = near.to_bits() << 4;
-        let [x, y, z] = rotation.0.map(|row| row.0.map(|r| ((i64::from(r) * mantissa) >> 34) as i32));
-        let [tx, ty, tz] = translation.map(|t| t.clamp(-(1 << 30), 1 << 30) as i32);
+        let ([x, y, z], [tx, ty, tz]) = (rotation.0, translation);
+        // From Q30.
+        let row = |row: Vector, translation| Row::new(row.0, mantissa, 2, translation);
         Self {
-            eye: [Row::new(x, tx), Row::new(y, ty), Row::new(z, tz)],
+            eye: [row(x, tx), row(y, ty), row(z, tz)],
             drop: (9 - exponent).clamp(0, 31) as u32,
             exponent,
             near,
@@ -202,15 +207,14 @@ impl Projection {
         let [x, y, z] = self.eye(center).map(i64::from);
         // Each row is as long as the scale's mantissa, or shorter.
         let [.., Row { high, .. }] = self.eye;
-        let [a, b, c] = high.map(i64::from);
-        let mantissa = ((a * a + b * b + c * c) as u64).isqrt() as i64 + 3;
+        let mantissa = i64::from(integer_root(dot_64(high, high) as u64)) + 3;
         let radius = ((mantissa * i64::from(radius)) >> self.drop) + 2;
         let (nearest, farthest) = (z - radius, z + radius);
         if farthest < i64::from(self.near) {
             return Sight::Hidden;
         }
         let focal = i64::from(self.focal);
-        let slant = |half: i64| ((focal * focal + half * half) as u64).isqrt() as i64 + 1;
+        let slant = |half: i64| i64::from(integer_root((focal * focal + half * half) as u64)) + 1;
         let beyond = |d: i64, half: u32| {
             let half = i64::from(half) * i64::from(SUBPIXELS) / 2;
             d.abs() * focal - half * z > radius * slant(half)
@@ -233,7 +237,7 @@ impl Projection {
         let zeros = nearest.leading_zeros();
         // focal = mantissa · 2^(bits − 32).
         let bits = 32 - self.focal.leading_zeros() as i32;
-        let mantissa = i64::from(self.focal) << (32 - bits);
+        let mantissa = self.focal << (32 - bits);
         // From Q29 times the scale.
         let screen_drop = u32::try_from(29 - self.exponent - bits - zeros as i32).ok().filter(|drop| *drop < 32)?;
         let nearness_drop = u32::try_from(self.nearness_drop - zeros as i32).ok().filter(|drop| *drop <= 24)?;
@@ -243,7 +247,7 @@ impl Projection {
             let translation = i64::from(row.translation) * i64::from(self.focal);
             let translation = if zeros < 20 { translation >> (20 - zeros) } else { translation << (zeros - 20).min(10) };
             let fits = translation.abs() <= 1 << 30;
-            fits.then(|| Row::new(row.full().map(|r| ((r * mantissa) >> 32) as i32), translation as i32))
+            fits.then(|| Row::new(row.full(), mantissa, 0, translation as i32))
         };
         let [right, down, forward] = &self.eye;
         Some(Short {
@@ -302,7 +306,7 @@ mod tests {
             let rotation = Rotation::x(angle) * Rotation::y(Turn::degrees(random(0.0..360.0) as i32));
             let away = random(-4.0..10.0).exp2();
             let scale = ((away * random(-8.0..0.0).exp2()).min(500.0) * 4_294_967_296.0) as i64;
-            let translation = [random(-0.8..0.8), random(-0.8..0.8), 1.0].map(|part| (part * away * 1_048_576.0) as i64);
+            let translation = [random(-0.8..0.8), random(-0.8..0.8), 1.0].map(|part| (part * away * 1_048_576.0) as i32);
             let near = Length::from_num(random(-9.0..-1.0).exp2());
             let focal = random(10.0..20.0).exp2();
             let size = Size::new(1024, 240);

@@ -3,7 +3,7 @@
 use embedded_graphics::geometry::Point;
 
 use super::vertex::Vertex;
-use crate::math::{gradient::Gradient, screen::SUBPIXELS};
+use crate::math::{gradient::Gradient, quotient::floor, screen::SUBPIXELS};
 
 /// A triangle's nearness on the screen, a plane: 30 bits at the near plane; larger is nearer. Wrapping.
 ///
@@ -89,7 +89,7 @@ fn exact_plane([p0, p1, p2]: [Point; 3], [w0, w1, w2]: [i32; 3]) -> [i32; 3] {
     let [fx, fy] = [p0.x, p0.y].map(|place| i64::from(SUBPIXELS / 2 - (place & (SUBPIXELS - 1))));
     let area = ax * by - ay * bx;
     let [at, x, y] = [x * fx + y * fy, x * i64::from(SUBPIXELS), y * i64::from(SUBPIXELS)]
-        .map(|numerator| (numerator << FINER).checked_div_euclid(area).unwrap_or(0) as i32);
+        .map(|numerator| (floor(numerator << FINER, area.unsigned_abs()) * area.signum()) as i32);
     let [px, py] = [p0.x, p0.y].map(|place| place.div_euclid(SUBPIXELS));
     [(w0 << FINER).wrapping_add(at).wrapping_sub(x.wrapping_mul(px)).wrapping_sub(y.wrapping_mul(py)), x, y]
 }

@@ -2,6 +2,7 @@
 
 use super::vertex::Vertex;
 use crate::math::{
+    quotient::quotient,
     reciprocal::rough,
     screen::{center, SUBPIXELS},
 };
@@ -61,7 +62,7 @@ impl Edge {
         let dy = dy.max(1);
         let (whole, rest) = (dx.div_euclid(dy), dx.rem_euclid(dy));
         // In 1/2⁴⁰, so that `at` stays exact for all heights below 2²⁰.
-        let part = ((i64::from(rest) << 40) as u64).checked_div(dy as u64).unwrap_or(0) as i64;
+        let part = quotient((rest as u64) << 40, dy as u64) as i64;
         let (whole, down) = (i64::from(whole), i64::from(down));
         let x = i64::from(x + SUBPIXELS / 2) + whole * down;
         self.at = (x << 40).wrapping_add(part.wrapping_mul(down)).wrapping_sub(1);
