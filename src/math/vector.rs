@@ -21,7 +21,7 @@ impl Vector {
         // Bring the largest to 30 bits: the sum of squares then fits 62.
         let up = largest.leading_zeros().saturating_sub(1);
         let components = components.map(|c| ((c << up) >> 33) as i32);
-        let length = integer_root(dot_64(components, components) as u64);
+        let length = norm(components);
         (length > 0).then(|| Self(components.map(|c| c.signum() * fraction(c.unsigned_abs(), length) as i32)))
     }
 
@@ -98,6 +98,13 @@ pub fn turned(vector: [i16; 3], from: [i32; 3], to: [i32; 3]) -> [i16; 3] {
 pub fn dot_64(a: [i32; 3], b: [i32; 3]) -> i64 {
     let ([a, b, c], [d, e, f]) = (a.map(i64::from), b.map(i64::from));
     (a * d).wrapping_add(b * e).wrapping_add(c * f)
+}
+
+/// The length, rounded down.
+#[inline(never)]
+#[must_use]
+pub fn norm(vector: [i32; 3]) -> u32 {
+    integer_root(dot_64(vector, vector) as u64)
 }
 
 /// The scalar product, wrapping.

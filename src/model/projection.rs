@@ -4,10 +4,9 @@ use embedded_graphics::geometry::{Point, Size};
 
 use crate::math::{
     reciprocal::Reciprocal,
-    root::integer_root,
     rotation::Rotation,
     screen::{GUARD, SUBPIXELS},
-    vector::{dot_64, Vector},
+    vector::{dot_64, norm, Vector},
     Length,
 };
 
@@ -51,10 +50,16 @@ impl Row {
         Self { high: row.map(|m| m >> 14), low: row.map(|m| m & 0x3fff), translation }
     }
 
-    /// The row in Q28.
-    fn full(&self) -> [i32; 3] {
+    /// Row and translation times the focal length and `2^zeros`, but for a power of two; none if the translation does not fit.
+    #[inline(never)]
+    fn times(&self, focal: u32, zeros: u32) -> Option<Self> {
+        // 53 bits; I12F20 to the unit of the row.
+        let translation = i64::from(self.translation) * i64::from(focal);
+        let translation = if zeros < 20 { translation >> (20 - zeros) } else { translation << (zeros - 20).min(10) };
+        let fits = translation.abs() <= 1 << 30;
         let ([a, b, c], [d, e, f]) = (self.high, self.low);
-        [(a, d), (b, e), (c, f)].map(|(high, low)| (high << 14) + low)
+        let row = [(a, d), (b, e), (c, f)].map(|(high, low)| (high << 14) + low);
+        fits.then(|| Self::new(row, focal << leading_zeros(focal), 0, translation as i32))
     }
 
     /// The position along this row, `drop` bits fewer than Q29.
@@ -144,7 +149,6 @@ pub struct Projection {
     /// In subpixels.
     focal: u32,
     center: Point,
-    size: Size,
 }
 
 impl Projection {
@@ -168,12 +172,11 @@ impl Projection {
             nearness_drop: 62 - (54 - near.leading_zeros() as i32),
             focal,
             center: Point::new(size.width as i32, size.height as i32) * (SUBPIXELS / 2),
-            size,
         }
     }
 
     /// A position of the mesh as the eye sees it.
-    #[inline]
+    #[inline(never)]
     #[must_use]
     pub fn eye(&self, position: [i16; 3]) -> Eye {
         let position = position.map(i32::from);
@@ -204,29 +207,28 @@ impl Projection {
     /// How much is in sight of a sphere around a position of the mesh, both Q15.
     #[must_use]
     pub fn sight(&self, center: [i16; 3], radius: u16) -> Sight {
-        let [x, y, z] = self.eye(center).map(i64::from);
+        let [x, y, z] = self.eye(center);
+        let (right, down) = (x.saturating_abs(), y.saturating_abs());
         // Each row is as long as the scale's mantissa, or shorter.
         let [.., Row { high, .. }] = self.eye;
-        let mantissa = i64::from(integer_root(dot_64(high, high) as u64)) + 3;
-        let radius = ((mantissa * i64::from(radius)) >> self.drop) + 2;
-        let (nearest, farthest) = (z - radius, z + radius);
-        if farthest < i64::from(self.near) {
+        let mantissa = norm(high) + 3;
+        let radius = (mantissa.wrapping_mul(radius.into()) >> self.drop).saturating_add(2).min(i32::MAX as u32) as i32;
+        let (nearest, farthest) = (z.saturating_sub(radius), z.saturating_add(radius));
+        if farthest < self.near {
             return Sight::Hidden;
         }
-        let focal = i64::from(self.focal);
-        let slant = |half: i64| i64::from(integer_root((focal * focal + half * half) as u64)) + 1;
-        let beyond = |d: i64, half: u32| {
-            let half = i64::from(half) * i64::from(SUBPIXELS) / 2;
-            d.abs() * focal - half * z > radius * slant(half)
+        let focal = self.focal as i32;
+        // Whether, beside the plane through the eye that is `half` away from the axis at the focal length, the whole sphere is on one
+        // side: 1 is outside, −1 inside.
+        let is_wholly = |side: i32, away: i32, half: i32| {
+            let slant = norm([focal, half, 0]) as i32 + 1;
+            dot_64([away, half, radius], [side * focal, z.wrapping_mul(-side), -slant]) > 0
         };
-        if beyond(x, self.size.width) || beyond(y, self.size.height) {
+        if is_wholly(1, right, self.center.x) || is_wholly(1, down, self.center.y) {
             return Sight::Hidden;
         }
-        let inside = |d: i64| {
-            let guard = i64::from(GUARD - 8);
-            guard * z - d.abs() * focal > radius * slant(guard)
-        };
-        if nearest < i64::from(self.near.max(1)) || farthest > i64::from(i32::MAX) || !inside(x) || !inside(y) {
+        let is_inside = nearest >= self.near.max(1) && is_wholly(-1, right.max(down), GUARD - 8);
+        if !is_inside || farthest == i32::MAX {
             return Sight::Partial;
         }
         self.short(nearest as u32, farthest as u32).map_or(Sight::Partial, Sight::Whole)
@@ -235,23 +237,14 @@ impl Projection {
     /// The short way for z in that range, if it is exact enough.
     fn short(&self, nearest: u32, farthest: u32) -> Option<Short> {
         let zeros = nearest.leading_zeros();
-        // focal = mantissa · 2^(bits − 32).
         let bits = 32 - self.focal.leading_zeros() as i32;
-        let mantissa = self.focal << (32 - bits);
         // From Q29 times the scale.
         let screen_drop = u32::try_from(29 - self.exponent - bits - zeros as i32).ok().filter(|drop| *drop < 32)?;
         let nearness_drop = u32::try_from(self.nearness_drop - zeros as i32).ok().filter(|drop| *drop <= 24)?;
         let depth = u32::checked_sub(zeros, farthest.leading_zeros()).filter(|depth| *depth <= Short::DEPTH)?;
-        let row = |row: &Row| {
-            // 53 bits; I12F20 to the unit of the row.
-            let translation = i64::from(row.translation) * i64::from(self.focal);
-            let translation = if zeros < 20 { translation >> (20 - zeros) } else { translation << (zeros - 20).min(10) };
-            let fits = translation.abs() <= 1 << 30;
-            fits.then(|| Row::new(row.full(), mantissa, 0, translation as i32))
-        };
         let [right, down, forward] = &self.eye;
         Some(Short {
-            screen: [row(right)?, row(down)?],
+            screen: [right.times(self.focal, zeros)?, down.times(self.focal, zeros)?],
             screen_drop,
             forward: *forward,
             drop: self.drop,
@@ -265,17 +258,17 @@ impl Projection {
     /// Distance of a point from a plane that bounds what can be projected, in a unit of the plane's own: the near plane first,
     /// then left, right, top and bottom of the guard band; at least 0 inside.
     #[must_use]
-    pub fn inside(&self, [x, y, z]: Eye, plane: usize) -> i64 {
-        let (x, y, z) = (i64::from(x), i64::from(y), i64::from(z));
+    pub fn inside(&self, point: Eye, plane: usize) -> i64 {
         // A little less than the guard band, so that rounding does not put a cut back outside.
-        let (focal, guard) = (i64::from(self.focal), i64::from(GUARD - 8) * z);
-        match plane {
-            0 => z - i64::from(self.near),
-            1 => guard + x * focal,
-            2 => guard - x * focal,
-            3 => guard + y * focal,
-            _ => guard - y * focal,
-        }
+        let (focal, guard) = (self.focal as i32, GUARD - 8);
+        let (towards, near) = match plane {
+            0 => ([0, 0, 1], self.near),
+            1 => ([focal, 0, guard], 0),
+            2 => ([-focal, 0, guard], 0),
+            3 => ([0, focal, guard], 0),
+            _ => ([0, -focal, guard], 0),
+        };
+        dot_64(point, towards) - i64::from(near)
     }
 
     /// Whether all of a triangle lies outside of one of these planes.
