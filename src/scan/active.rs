@@ -79,14 +79,11 @@ impl Active {
         line: u16,
         geometry: &Geometry<'_, '_, LIGHTS>,
     ) -> Option<u16> {
-        let numbers = geometry.numbers(kept.triangle)?;
-        let look = numbers.look();
-        let [na, nb, nc] = numbers.corners;
         let is_pair = kept.is_pair();
+        let (names, look) = if is_pair { geometry.pair(kept.triangle)? } else { geometry.one(kept.triangle)? };
         self.sharing = if is_pair { Sharing::Unknown } else { Sharing::Single };
-        let names = [na, nb, nc, if is_pair { numbers.fourth()? } else { nc }];
         let mut room = None;
-        let vertices = geometry.four(names, &mut room)?;
+        let vertices = geometry.four(&names, &mut room)?;
         let [a, b, c, _] = vertices;
         let [wa, wb, wc, wd] = vertices.map(|corner| corner.nearness());
         self.far = (wa.min(wb).min(wc).min(wd) >> 8) as u16;
@@ -94,7 +91,8 @@ impl Active {
         let [t, m1, m2, e] = by_height(vertices, is_pair);
         let course =
             if is_pair { Course::of(t, m1, m2) } else { Course::of_one(t, m1, area(a.point(), b.point(), c.point()) < 0) };
-        (self.first, self.facets, self.depths) = (kept.triangle, [0; 2], [Depth::UNKNOWN; 2]);
+        (self.first, self.facets) = (kept.triangle, [0; 2]);
+        self.depths.iter_mut().for_each(Depth::forget);
 
         let (top, first, second, last) = (pick(&vertices, t), pick(&vertices, m1), pick(&vertices, m2), pick(&vertices, e));
         let (start, end) = (i32::from(line), last.pixel().y);
@@ -108,7 +106,7 @@ impl Active {
         let [bent, straight] = self.edges(course.is(Course::LEFT));
         bent.join(top, first, start);
         straight.join(top, if course.goes_on() { last } else { second }, start);
-        self.diagonal = Edge::beyond(!(course.is(Course::BEGINS) && course.is(Course::LEFT)));
+        self.diagonal.set_beyond(!(course.is(Course::BEGINS) && course.is(Course::LEFT)));
         if is_pair && !course.is(Course::BEGINS) {
             self.diagonal.join(top, if course.is(Course::ENDS_AFTER) { second } else { last }, start);
         }
@@ -165,7 +163,7 @@ impl Active {
     pub(crate) fn deepen<const LIGHTS: usize>(&mut self, half: usize, geometry: &Geometry<'_, '_, LIGHTS>) -> u32 {
         let Some([a, b, c]) = geometry.numbers(self.id(half)).map(|numbers| numbers.corners) else { return 0 };
         let mut room = None;
-        let Some([a, b, c, _]) = geometry.four([a, b, c, c], &mut room) else { return 0 };
+        let Some([a, b, c, _]) = geometry.four(&[a, b, c, c], &mut room) else { return 0 };
         let (depth, exact) = Depth::of([a, b, c]);
         if let Some(room) = self.depths.get_mut(half) {
             *room = depth;
@@ -202,7 +200,7 @@ impl Active {
         let line = line as i32;
         let [a, b, c] = self.lower;
         let mut room = None;
-        let Some([here, next, last, _]) = geometry.four([a, b, c, c], &mut room) else { return };
+        let Some([here, next, last, _]) = geometry.four(&[a, b, c, c], &mut room) else { return };
         if !self.turn_at([here, next, last], line) {
             self.turn_at([next, last, last], line);
         }
@@ -220,7 +218,7 @@ impl Active {
         if course.is(Course::BEGINS) {
             self.diagonal.join(here, if course.is(Course::ENDS_AFTER) { next } else { last }, line);
         } else if course.is(Course::ENDS) {
-            self.diagonal = Edge::beyond(!course.is(Course::LEFT));
+            self.diagonal.set_beyond(!course.is(Course::LEFT));
         }
         turn > line
     }

@@ -25,8 +25,8 @@ impl Depth {
     /// Zero everywhere.
     pub(crate) const ZERO: Self = Self { at: 0, steps: [0; 2] };
 
-    /// Not known yet; no triangle has such a step.
-    pub(crate) const UNKNOWN: Self = Self { at: 0, steps: [i32::MIN, 0] };
+    /// The increase to the right of one that is not known yet; no triangle has such a step.
+    const UNKNOWN: i32 = i32::MIN;
 
     /// That of a triangle; and 1 if it took 64-bit divisions, else 0.
     #[inline(always)]
@@ -37,9 +37,16 @@ impl Depth {
         (Self { at, steps: [x.max(-i32::MAX), y] }, exact)
     }
 
+    /// Is not known any more.
+    #[inline(always)]
+    pub(crate) const fn forget(&mut self) {
+        let [right, _] = &mut self.steps;
+        *right = Self::UNKNOWN;
+    }
+
     #[inline(always)]
     pub(crate) const fn is_known(&self) -> bool {
-        self.step() != Self::UNKNOWN.step()
+        self.step() != Self::UNKNOWN
     }
 
     /// At a pixel.

@@ -25,10 +25,6 @@ pub struct Edge {
 impl Edge {
     /// An empty edge at pixel 0.
     pub const NONE: Self = Self { at: 0, step: 0 };
-    /// A vertical edge that no pixel lies right of.
-    pub(crate) const RIGHTMOST: Self = Self { at: i64::MAX, step: 0 };
-    /// A vertical edge that all pixels lie right of.
-    pub(crate) const LEFTMOST: Self = Self { at: i64::MIN, step: 0 };
 
     /// Becomes the edge from `top` down to `bottom`, on line `line`, which must not begin above `top`.
     #[inline(never)]
@@ -75,13 +71,11 @@ impl Edge {
         is_long(bottom.x - top.x, bottom.y - top.y, center(line) - top.y)
     }
 
-    /// An edge that all pixels lie left of, or all right.
-    pub(crate) const fn beyond(is_rightmost: bool) -> Self {
-        if is_rightmost {
-            Self::RIGHTMOST
-        } else {
-            Self::LEFTMOST
-        }
+    /// Becomes an edge that all pixels lie left of, or all right.
+    #[inline(always)]
+    pub(crate) const fn set_beyond(&mut self, is_rightmost: bool) {
+        self.at = if is_rightmost { i64::MAX } else { i64::MIN };
+        self.step = 0;
     }
 
     /// The first pixel whose centre lies on or right of the edge.

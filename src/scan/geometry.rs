@@ -136,25 +136,42 @@ impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
         Some(Numbers { object, triangle, part: made, corners, edges })
     }
 
+    /// The corners of a triangle, the last one twice, and the number of its material among those of all objects.
+    #[inline(always)]
+    pub(crate) fn one(&self, id: TriangleId) -> Option<([u16; 4], u16)> {
+        let Numbers { object, triangle, corners: [a, b, c], .. } = self.numbers(id)?;
+        Some(([a, b, c, c], object.look(triangle)))
+    }
+
+    /// The corners of a triangle of a mesh and the next one, which are kept as one, and the number of their material among those of all
+    /// objects.
+    #[inline(always)]
+    pub(crate) fn pair(&self, first: TriangleId) -> Option<([u16; 4], u16)> {
+        let (object, triangle) = self.object(first)?;
+        let at = usize::from(triangle);
+        let [[a, b, c], [_, _, d]] = object.mesh.data().triangles.get(at..at + 2)? else { return None };
+        Some(([*a, *b, *c, *d].map(|corner| corner.wrapping_add(object.first_vertex)), object.look(triangle)))
+    }
+
     /// A triangle's corners.
     #[inline]
     pub(crate) fn corners(&self, id: TriangleId) -> Option<[Vertex<LIGHTS>; 3]> {
         let [a, b, c] = self.numbers(id)?.corners;
         let mut room = None;
-        let [a, b, c, _] = self.four([a, b, c, c], &mut room)?;
+        let [a, b, c, _] = self.four(&[a, b, c, c], &mut room)?;
         Some([*a, *b, *c])
     }
 
     /// Four vertices by their numbers in the frame, if they are stored.
     #[inline(always)]
-    pub(crate) fn stored(&self, [a, b, c, d]: [u16; 4]) -> Option<[&'f Vertex<LIGHTS>; 4]> {
-        let vertex = |number: u16| self.vertices.get(usize::from(number));
+    pub(crate) fn stored(&self, [a, b, c, d]: &[u16; 4]) -> Option<[&'f Vertex<LIGHTS>; 4]> {
+        let vertex = |number: &u16| self.vertices.get(usize::from(*number));
         Some([vertex(a)?, vertex(b)?, vertex(c)?, vertex(d)?])
     }
 
     /// Four vertices by their numbers in the frame: where they are stored or, made anew and without light, in `room`.
     #[inline(always)]
-    pub(crate) fn four<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<[&'v Vertex<LIGHTS>; 4]>
+    pub(crate) fn four<'v>(&self, numbers: &[u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<[&'v Vertex<LIGHTS>; 4]>
     where
         'f: 'v,
     {
@@ -167,8 +184,8 @@ impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
     /// Makes four vertices anew, in `room`.
     #[cold]
     #[inline(never)]
-    fn fill<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<&'v [Vertex<LIGHTS>; 4]> {
-        *room = (self.anew)(self, numbers);
+    fn fill<'v>(&self, numbers: &[u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<&'v [Vertex<LIGHTS>; 4]> {
+        *room = (self.anew)(self, *numbers);
         room.as_ref()
     }
 
@@ -193,18 +210,11 @@ pub(crate) struct Numbers<'f> {
     pub(crate) edges: &'f [u16; 3],
 }
 
-impl Numbers<'_> {
-    /// The last corner of the next triangle of the mesh, among the frame's vertices.
+impl Object<'_> {
+    /// The number of a triangle's material among those of all objects.
     #[inline]
-    pub(crate) fn fourth(&self) -> Option<u16> {
-        let [_, _, corner] = *self.object.mesh.data().triangles.get(usize::from(self.triangle) + 1)?;
-        Some(corner.wrapping_add(self.object.first_vertex))
-    }
-
-    /// The number of its material among those of all objects.
-    #[inline]
-    pub(crate) fn look(&self) -> u16 {
-        let material = self.object.mesh.material_number(self.triangle).unwrap_or(0);
-        self.object.first_material.wrapping_add(material)
+    pub(crate) fn look(&self, triangle: u16) -> u16 {
+        let material = self.mesh.material_number(triangle).unwrap_or(0);
+        self.first_material.wrapping_add(material)
     }
 }

@@ -134,7 +134,7 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
             Some(made) if L::IN_SCENE => self.geometry.corners(made.whole)?.map(|corner| corner.nearness()),
             _ => [0; 3],
         };
-        let [a, b, c, _] = self.lit([a, b, c, c], room)?;
+        let [a, b, c, _] = self.lit(&[a, b, c, c], room)?;
         let corners = [a, b, c];
         Some(Triangle { corners, edges: numbers.edges, aims, numbers, nearness, turned: false, rung: 0 })
     }
@@ -153,12 +153,12 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
             return None;
         };
         let numbers = [*a, *b, *c, *d].map(|corner| corner.wrapping_add(object.first_vertex));
-        Some(Pair { corners: self.lit(numbers, room)?, edges: [one, other] })
+        Some(Pair { corners: self.lit(&numbers, room)?, edges: [one, other] })
     }
 
     /// Four vertices by their numbers in the frame: where they are stored or, made anew, in `room`.
     #[inline(always)]
-    fn lit<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<[&'v Vertex<LIGHTS>; 4]>
+    fn lit<'v>(&self, numbers: &[u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<[&'v Vertex<LIGHTS>; 4]>
     where
         'f: 'v,
     {
@@ -171,8 +171,8 @@ impl<'f, const LIGHTS: usize, L: LightSource> Picture<'f, '_, LIGHTS, L> {
     /// Makes four vertices anew, in `room`.
     #[cold]
     #[inline(never)]
-    fn fill<'v>(&self, numbers: [u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<&'v [Vertex<LIGHTS>; 4]> {
-        *room = (self.lit_anew)(self, numbers);
+    fn fill<'v>(&self, numbers: &[u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<&'v [Vertex<LIGHTS>; 4]> {
+        *room = (self.lit_anew)(self, *numbers);
         room.as_ref()
     }
 }
