@@ -2,7 +2,7 @@
 
 use embedded_graphics::{geometry::Size, primitives::Rectangle};
 
-use super::vertex::Vertex;
+use super::vertex::{first_pixel, Vertex};
 
 /// Number of a triangle in a frame: through the meshes in the order they were added; those made by clipping or splitting count down
 /// from 65534.
@@ -98,41 +98,27 @@ pub(crate) fn at<const LIGHTS: usize>(vertices: &[Vertex<LIGHTS>], [a, b, c]: [u
     Some([vertices.get(usize::from(a))?, vertices.get(usize::from(b))?, vertices.get(usize::from(c))?])
 }
 
-/// Twice the area of a triangle, given two of its edges: units of 2¹⁰ square subpixels, and the rest. Below 0 if it shows the eye its
-/// front.
-#[derive(Clone, Copy)]
-struct Area {
-    high: i32,
-    low: i32,
+/// Twice the areas of the triangles a, b, c and a, c, d, or numbers of the same sign: below 0 if they show the eye their fronts; and whether
+/// both do and are convex together. From a to b, c, and d.
+#[inline(always)]
+fn areas([ab, ac, ad]: [[i32; 2]; 3]) -> ([i32; 2], bool) {
+    // Below 64 pixels all of it fits 32 bits.
+    let far = [ab, ac, ad].iter().fold(0, |bits, [x, y]| bits | (x + (1 << 14)) | (y + (1 << 14)));
+    if far as u32 >> 15 != 0 {
+        return far_areas([ab, ac, ad]);
+    }
+    let area = |[bx, by]: [i32; 2], [cx, cy]: [i32; 2]| bx * cy - by * cx;
+    let (first, second) = (area(ab, ac), area(ac, ad));
+    ([first, second], first < 0 && second < 0 && area(ab, ad) < 0 && first + second < area(ab, ad))
 }
 
-impl Area {
-    #[inline(always)]
-    fn of([bx, by]: [i32; 2], [cx, cy]: [i32; 2]) -> Self {
-        // Products of 20 and 10 bits.
-        let part = |cx: i32, cy: i32| bx.wrapping_mul(cy).wrapping_sub(by.wrapping_mul(cx));
-        Self { high: part(cx >> 10, cy >> 10), low: part(cx & 0x3ff, cy & 0x3ff) }
-    }
-
-    #[inline(always)]
-    const fn is_front(self) -> bool {
-        self.high.wrapping_add(self.low >> 10) < 0
-    }
-
-    /// Whether the triangle covers anything on the screen and shows a side that is to be seen.
-    #[inline(always)]
-    const fn is_seen(self, double_sided: bool) -> bool {
-        let high = self.high.wrapping_add(self.low >> 10);
-        high < 0 || (double_sided && (high > 0 || self.low & 0x3ff != 0))
-    }
-
-    /// Whether what is left of two areas without a third one shows its front.
-    #[inline(always)]
-    const fn is_rest_front(self, other: Self, without: Self) -> bool {
-        let high = self.high.wrapping_add(other.high).wrapping_sub(without.high);
-        let low = self.low.wrapping_add(other.low).wrapping_sub(without.low);
-        Self { high, low }.is_front()
-    }
+/// The same in 64 bits.
+#[cold]
+#[inline(never)]
+fn far_areas([ab, ac, ad]: [[i32; 2]; 3]) -> ([i32; 2], bool) {
+    let area = |[bx, by]: [i32; 2], [cx, cy]: [i32; 2]| i64::from(bx) * i64::from(cy) - i64::from(by) * i64::from(cx);
+    let (first, second, corner) = (area(ab, ac), area(ac, ad), area(ab, ad));
+    ([first, second].map(|area| area.signum() as i32), first < 0 && second < 0 && corner < 0 && first + second < corner)
 }
 
 /// The triangles that are to be drawn, by the line on which they start.
@@ -179,36 +165,28 @@ impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
             let this = id;
             (rest, id) = (others, id.next());
             let Some([a, b, c]) = at(vertices, *triangle) else { continue };
-            let (pa, pb, pc) = (a.point(), b.point(), c.point());
-            let (ab, ac) = ([pb.x - pa.x, pb.y - pa.y], [pc.x - pa.x, pc.y - pa.y]);
-            let area = Area::of(ab, ac);
-            let is_seen = area.is_seen(double_sided);
-            let fourth = match others {
-                [next, ..] if pairs => fourth(vertices, *triangle, *next),
-                _ => None,
-            };
-            let Some(d) = fourth else {
-                if is_seen {
-                    sorted += self.keep([a, b, c, c], this, false);
-                }
-                continue;
-            };
-            // Both triangles at once.
-            (rest, id) = (others.get(1..).unwrap_or_default(), id.next());
-            let pd = d.point();
-            let ad = [pd.x - pa.x, pd.y - pa.y];
-            let other = Area::of(ac, ad);
-            if area.is_front() && other.is_front() {
-                let corner = Area::of(ab, ad);
-                if corner.is_front() && area.is_rest_front(other, corner) {
-                    sorted += self.keep([a, b, c, d], this, true);
-                    continue;
+            let mut d = c;
+            if let (true, [next, others @ ..]) = (pairs, others) {
+                if let Some(fourth) = fourth(vertices, *triangle, *next) {
+                    // Both triangles at once.
+                    (d, rest, id) = (fourth, others, id.next());
                 }
             }
-            if is_seen {
+            let here = a.point();
+            let ([first, second], is_convex) = areas([b, c, d].map(|corner| {
+                let there = corner.point();
+                [there.x - here.x, there.y - here.y]
+            }));
+            if is_convex {
+                sorted += self.keep([a, b, c, d], this, true);
+                continue;
+            }
+            let is_seen = |area: i32| area < 0 || double_sided && area > 0;
+            if is_seen(first) {
                 sorted += self.keep([a, b, c, c], this, false);
             }
-            if other.is_seen(double_sided) {
+            // Of one alone, the second has no area.
+            if is_seen(second) {
                 sorted += self.keep([a, c, d, d], this.next(), false);
             }
         }
@@ -295,10 +273,9 @@ fn fourth<const LIGHTS: usize>(vertices: &[Vertex<LIGHTS>], [a, _, c]: [u16; 3],
 /// The line on which a quadrilateral starts in a picture of that size; none if it cannot cover a pixel.
 #[inline(always)]
 fn first_line<const LIGHTS: usize>(corners: [&Vertex<LIGHTS>; 4], size: Size) -> Option<usize> {
-    let [a, b, c, d] = corners.map(|corner| corner.pixel());
-    let [x, y] = [[a.x, b.x, c.x, d.x], [a.y, b.y, c.y, d.y]].map(|borders| {
-        let [a, b, c, d] = borders;
-        [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
+    let [a, b, c, d] = corners.map(|corner| corner.words());
+    let [x, y] = [[a[0], b[0], c[0], d[0]], [a[1], b[1], c[1], d[1]]].map(|[a, b, c, d]| {
+        [a.min(b).min(c).min(d), a.max(b).max(c).max(d)].map(first_pixel)
     });
     (is_between(y, size.height as i32) && is_between(x, size.width as i32)).then(|| y[0].max(0) as usize)
 }

@@ -54,8 +54,14 @@ impl<const LIGHTS: usize> Vertex<LIGHTS> {
     #[inline(always)]
     #[must_use]
     pub const fn pixel(&self) -> Point {
-        const HALF: i32 = (SUBPIXELS / 2 - 1) << 12;
-        Point::new((self.x as i32).wrapping_add(HALF) >> 20, (self.y as i32).wrapping_add(HALF) >> 20)
+        let [x, y] = self.words();
+        Point::new(first_pixel(x), first_pixel(y))
+    }
+
+    /// The words with the coordinates, which are in the order of these or, of equal ones, in some order.
+    #[inline(always)]
+    pub(super) const fn words(&self) -> [i32; 2] {
+        [self.x as i32, self.y as i32]
     }
 
     /// 1/z with 23 bits at the near plane; 0 for a vertex that could not be projected.
@@ -90,4 +96,11 @@ impl<const LIGHTS: usize> Vertex<LIGHTS> {
             self.y |= 0xfff;
         }
     }
+}
+
+/// The first pixel centre at or after a coordinate, by the [word](Vertex::words) with it.
+#[inline(always)]
+pub(super) const fn first_pixel(word: i32) -> i32 {
+    const HALF: i32 = (SUBPIXELS / 2 - 1) << 12;
+    word.wrapping_add(HALF) >> 20
 }
