@@ -88,6 +88,12 @@ impl Gradient {
     #[inline]
     #[must_use]
     pub fn linear(&self, v0: i32, d1: i32, d2: i32, finer: i32) -> [i32; 3] {
+        self.linear_here(v0, d1, d2, finer)
+    }
+
+    /// The same in line, for a gradient that then need not be stored.
+    #[inline(always)]
+    pub(crate) fn linear_here(&self, v0: i32, d1: i32, d2: i32, finer: i32) -> [i32; 3] {
         // ρ goes into the differences, in halves of a unit: so the value is off by no more than these, wherever on the triangle.
         let half = (self.short >> 1) as i32;
         let [d1, d2] = [d1, d2].map(|d| d.wrapping_mul(half).wrapping_add(1 << 13) >> 14);

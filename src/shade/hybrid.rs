@@ -184,7 +184,7 @@ fn joined<const LEVELS: u32, const LIGHTS: usize, L: LightSource>(
     }
     let gradient = Gradient::new([a, c, a + d - b])?;
     let finer = finer(LIGHTS);
-    let [at, dx, dy] = gradient.linear(va, vc - va, vd - vb, finer);
+    let [at, dx, dy] = gradient.linear_here(va, vc - va, vd - vb, finer);
     // Steps in quarters of a unit for a pixel are as exact as is needed, and do not overflow.
     let climb = ((dx >> (finer - 2)) * x).wrapping_add((dy >> (finer - 2)) * y) >> 10;
     let above = vb - va - climb;
