@@ -33,8 +33,8 @@ pub struct Active {
     /// The corners still to come, from top to bottom, among the frame's vertices; the last one again where there are no three. In a
     /// free slot, the next free one first.
     lower: [u16; 3],
-    left: Edge,
-    right: Edge,
+    /// The right edge, and the left one.
+    sides: [Edge; 2],
     /// Between two triangles; where only one of them is on the line, far out on the other's side.
     diagonal: Edge,
     /// Of the left triangle and of the right one, once they are compared.
@@ -56,8 +56,7 @@ pub(crate) enum Sharing {
 impl Active {
     /// No triangle: all zeros, so that a `static` takes no flash.
     pub(crate) const NONE: Self = Self {
-        left: Edge::NONE,
-        right: Edge::NONE,
+        sides: [Edge::NONE; 2],
         diagonal: Edge::NONE,
         depths: [Depth::ZERO; 2],
         facets: [0; 2],
@@ -103,9 +102,9 @@ impl Active {
         let turn = first.pixel().y;
         let course = course.ending([turn == end, second.pixel().y == end]);
         (self.course, self.turn) = (course, turn as u16);
-        let [bent, straight] = self.edges(course.is(Course::LEFT));
-        bent.join(top, first, start);
-        straight.join(top, if course.goes_on() { last } else { second }, start);
+        let is_left = course.is(Course::LEFT);
+        self.side(is_left).join(top, first, start);
+        self.side(!is_left).join(top, if course.goes_on() { last } else { second }, start);
         self.diagonal.set_beyond(!(course.is(Course::BEGINS) && course.is(Course::LEFT)));
         if is_pair && !course.is(Course::BEGINS) {
             self.diagonal.join(top, if course.is(Course::ENDS_AFTER) { second } else { last }, start);
@@ -116,13 +115,14 @@ impl Active {
         Some(look)
     }
 
-    /// The edge on that side, and the other one.
+    /// The edge on that side.
     #[inline(always)]
-    fn edges(&mut self, is_left: bool) -> [&mut Edge; 2] {
+    fn side(&mut self, is_left: bool) -> &mut Edge {
+        let [right, left] = &mut self.sides;
         if is_left {
-            [&mut self.left, &mut self.right]
+            left
         } else {
-            [&mut self.right, &mut self.left]
+            right
         }
     }
 
@@ -197,12 +197,14 @@ impl Active {
     /// Turns to other edges on line `line`, the first one below a corner that is not the last.
     #[inline(never)]
     pub(crate) fn bend<const LIGHTS: usize>(&mut self, line: u32, geometry: &Geometry<'_, '_, LIGHTS>) {
-        let line = line as i32;
-        let [a, b, c] = self.lower;
-        let mut room = None;
-        let Some([here, next, last, _]) = geometry.four(&[a, b, c, c], &mut room) else { return };
-        if !self.turn_at([here, next, last], line) {
-            self.turn_at([next, last, last], line);
+        // Of two corners above the line, the second one ends what the first one began.
+        for _ in 0..2 {
+            let [a, b, c] = self.lower;
+            let mut room = None;
+            let Some([here, next, last, _]) = geometry.four(&[a, b, c, c], &mut room) else { return };
+            if self.turn_at([here, next, last], line as i32) {
+                return;
+            }
         }
     }
 
@@ -213,8 +215,7 @@ impl Active {
         (self.lower, self.course) = ([b, c, c], course.next());
         let turn = next.pixel().y;
         self.turn = turn as u16;
-        let [edge, _] = self.edges(course.is(Course::LEFT));
-        edge.join(here, if course.goes_on() { next } else { last }, line);
+        self.side(course.is(Course::LEFT)).join(here, if course.goes_on() { next } else { last }, line);
         if course.is(Course::BEGINS) {
             self.diagonal.join(here, if course.is(Course::ENDS_AFTER) { next } else { last }, line);
         } else if course.is(Course::ENDS) {
@@ -227,14 +228,16 @@ impl Active {
     #[inline(always)]
     pub(crate) fn step(&mut self) {
         self.diagonal.step();
-        self.left.step();
-        self.right.step();
+        let [right, left] = &mut self.sides;
+        left.step();
+        right.step();
     }
 
     /// The first pixel that it covers on the line, and the first one after; no pixels if the latter is not larger.
     #[inline(always)]
     pub(crate) const fn extent(&self) -> (i16, i16) {
-        (self.left.x(), self.right.x())
+        let [right, left] = &self.sides;
+        (left.x(), right.x())
     }
 
     /// The first pixel of the line right of the diagonal.
@@ -245,15 +248,17 @@ impl Active {
 
     /// The left and the right edge.
     pub(crate) const fn sides(&self) -> [&Edge; 2] {
-        [&self.left, &self.right]
+        let [right, left] = &self.sides;
+        [left, right]
     }
 
     /// The left and the right edge of one of the triangles; of a pair, if the other one covers no pixel of the line.
     pub(crate) fn sides_of(&self, half: usize) -> [&Edge; 2] {
         let (start, end) = self.extent();
+        let [left, right] = self.sides();
         match half {
-            0 if self.middle() < end => [&self.left, &self.diagonal],
-            1 if self.middle() > start => [&self.diagonal, &self.right],
+            0 if self.middle() < end => [left, &self.diagonal],
+            1 if self.middle() > start => [&self.diagonal, right],
             _ => self.sides(),
         }
     }

@@ -82,7 +82,7 @@ impl Course {
     /// Whether the edge that begins at the next corner, or ends there, is on the same side as that at the corner after it.
     #[inline(always)]
     pub(super) const fn goes_on(self) -> bool {
-        self.is(Self::LEFT) == self.is(Self::LEFT_AFTER)
+        (self.0 ^ self.0 >> 1) & Self::LEFT == 0
     }
 
     /// With the next corner, and the one after it, as the last one where they are.
