@@ -79,32 +79,33 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
             if self.look != span.look() {
                 self.dress(span.look());
             }
-            let Some(active) = slots.get_mut(usize::from(span.slot())) else { break };
+            let slot = usize::from(span.slot());
+            let Some(active) = slots.get_mut(slot) else { break };
             if S::BY_PAIR && active.sharing == Sharing::Unknown {
-                self.share(span.slot(), active);
+                self.share(slot, active);
             }
             let (start, middle, end) = (span.start(), i32::from(active.middle()), span.end());
-            if middle >= end || S::BY_PAIR && !T::APART && active.sharing == Sharing::Shared {
-                self.show::<0>(*span, active);
+            if S::BY_PAIR && !T::APART && active.sharing == Sharing::Shared || middle >= end {
+                self.show::<0>(*span, slot, active);
                 continue;
             }
             if middle > start {
                 self.spans += 1;
-                self.show::<0>(span.with(start, middle), active);
+                self.show::<0>(span.with(start, middle), slot, active);
             }
-            self.show::<1>(span.with(middle.max(start), end).right(), active);
+            self.show::<1>(span.with(middle.max(start), end).right(), slot, active);
         }
     }
 
     /// Sets up one facet for both triangles of a pair, if that is enough.
     #[inline(never)]
-    fn share(&mut self, slot: u16, active: &mut Active) {
+    fn share(&mut self, slot: usize, active: &mut Active) {
         active.sharing = Sharing::Apart;
         let mut room = None;
         let pair = active.pair().and_then(|first| self.picture.pair(first, &mut room));
         let surface = Surface { material: self.material, intensities: self.picture.intensities };
         let facet = pair.and_then(|pair| S::pair(&pair, &surface));
-        if let (Some(facet), Some(facets)) = (facet, self.facets.get_mut(usize::from(slot))) {
+        if let (Some(facet), Some(facets)) = (facet, self.facets.get_mut(slot)) {
             active.sharing = Sharing::Shared;
             *facets = [facet; 2];
             self.made += 1;
@@ -112,11 +113,11 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
         }
     }
 
-    /// Hands on a span of one triangle, or of a pair that shares a facet.
+    /// Hands on a span of one triangle, or of a pair that shares a facet, in that slot.
     #[inline(always)]
-    fn show<const HALF: usize>(&mut self, span: Span, active: &mut Active) {
+    fn show<const HALF: usize>(&mut self, span: Span, slot: usize, active: &mut Active) {
         let [_, near] = active.reach();
-        let facets = self.facets.get_mut(usize::from(span.slot()));
+        let facets = self.facets.get_mut(slot);
         let Some(facet) = facets.and_then(|facets| facets.get_mut(HALF)) else { return };
         let Some(mut number) = active.facets.get(HALF).copied() else { return };
         if number == 0 {

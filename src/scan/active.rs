@@ -197,7 +197,7 @@ impl Active {
     /// Turns to other edges on line `line`, the first one below a corner that is not the last.
     #[inline(never)]
     pub(crate) fn bend<const LIGHTS: usize>(&mut self, line: u32, geometry: &Geometry<'_, '_, LIGHTS>) {
-        // Of two corners above the line, the second one ends what the first one began.
+        // Two corners may lie above the line; the last one does not.
         for _ in 0..2 {
             let [a, b, c] = self.lower;
             let mut room = None;
@@ -259,7 +259,7 @@ impl Active {
         match half {
             0 if self.middle() < end => [left, &self.diagonal],
             1 if self.middle() > start => [&self.diagonal, right],
-            _ => self.sides(),
+            _ => [left, right],
         }
     }
 

@@ -98,8 +98,8 @@ pub(crate) fn at<const LIGHTS: usize>(vertices: &[Vertex<LIGHTS>], [a, b, c]: [u
     Some([vertices.get(usize::from(a))?, vertices.get(usize::from(b))?, vertices.get(usize::from(c))?])
 }
 
-/// Twice the areas of the triangles a, b, c and a, c, d, or numbers of the same sign: below 0 if they show the eye their fronts; and whether
-/// both do and are convex together. From a to b, c, and d.
+/// Twice the areas of the triangles a, b, c and a, c, d, or numbers of the same signs, below 0 if they show the eye their fronts; and
+/// whether both do and are convex together. Given the ways from a to b, to c, and to d.
 #[inline(always)]
 fn areas([ab, ac, ad]: [[i32; 2]; 3]) -> ([i32; 2], bool) {
     // Below 64 pixels all of it fits 32 bits.
@@ -109,7 +109,11 @@ fn areas([ab, ac, ad]: [[i32; 2]; 3]) -> ([i32; 2], bool) {
     }
     let area = |[bx, by]: [i32; 2], [cx, cy]: [i32; 2]| bx * cy - by * cx;
     let (first, second) = (area(ab, ac), area(ac, ad));
-    ([first, second], first < 0 && second < 0 && area(ab, ad) < 0 && first + second < area(ab, ad))
+    let is_convex = first < 0 && second < 0 && {
+        let corner = area(ab, ad);
+        corner < 0 && first + second < corner
+    };
+    ([first, second], is_convex)
 }
 
 /// The same in 64 bits.
@@ -159,17 +163,16 @@ impl<const TRIANGLES: usize, const LINES: usize> Buckets<TRIANGLES, LINES> {
         pairs: bool,
     ) -> Sorted {
         let mut sorted = Sorted::default();
-        let mut id = first;
         let mut rest = triangles;
         while let [triangle, others @ ..] = rest {
-            let this = id;
-            (rest, id) = (others, id.next());
+            let this = TriangleId(first.0.wrapping_add((triangles.len() - rest.len()) as u16));
+            rest = others;
             let Some([a, b, c]) = at(vertices, *triangle) else { continue };
             let mut d = c;
             if let (true, [next, others @ ..]) = (pairs, others) {
                 if let Some(fourth) = fourth(vertices, *triangle, *next) {
                     // Both triangles at once.
-                    (d, rest, id) = (fourth, others, id.next());
+                    (d, rest) = (fourth, others);
                 }
             }
             let here = a.point();
@@ -274,9 +277,8 @@ fn fourth<const LIGHTS: usize>(vertices: &[Vertex<LIGHTS>], [a, _, c]: [u16; 3],
 #[inline(always)]
 fn first_line<const LIGHTS: usize>(corners: [&Vertex<LIGHTS>; 4], size: Size) -> Option<usize> {
     let [a, b, c, d] = corners.map(|corner| corner.words());
-    let [x, y] = [[a[0], b[0], c[0], d[0]], [a[1], b[1], c[1], d[1]]].map(|[a, b, c, d]| {
-        [a.min(b).min(c).min(d), a.max(b).max(c).max(d)].map(first_pixel)
-    });
+    let [x, y] = [[a[0], b[0], c[0], d[0]], [a[1], b[1], c[1], d[1]]]
+        .map(|[a, b, c, d]| [a.min(b).min(c).min(d), a.max(b).max(c).max(d)].map(first_pixel));
     (is_between(y, size.height as i32) && is_between(x, size.width as i32)).then(|| y[0].max(0) as usize)
 }
 
@@ -284,4 +286,28 @@ fn first_line<const LIGHTS: usize>(corners: [&Vertex<LIGHTS>; 4], size: Size) ->
 #[inline(always)]
 const fn is_between([least, most]: [i32; 2], count: i32) -> bool {
     least < most && most > 0 && least < count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn areas_are_the_same_in_32_bits() {
+        let mut state = 1_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            // Small ones, for areas of 0, and up to the largest.
+            let bits = 2 + (state >> 8) % 14;
+            (state as i32) >> (32 - bits)
+        };
+        let mut convex = 0;
+        for _ in 0..100_000 {
+            let ways = [[(); 2]; 3].map(|way| way.map(|()| random().clamp(-(1 << 14), (1 << 14) - 1)));
+            let ([first, second], is_convex) = areas(ways);
+            assert_eq!(([first.signum(), second.signum()], is_convex), far_areas(ways), "{ways:?}");
+            convex += u32::from(is_convex);
+        }
+        assert!(convex > 5_000, "{convex}");
+    }
 }

@@ -171,7 +171,11 @@ impl<'f, 'm, const LIGHTS: usize> Geometry<'f, 'm, LIGHTS> {
 
     /// Four vertices by their numbers in the frame: where they are stored or, made anew and without light, in `room`.
     #[inline(always)]
-    pub(crate) fn four<'v>(&self, numbers: &[u16; 4], room: &'v mut Option<[Vertex<LIGHTS>; 4]>) -> Option<[&'v Vertex<LIGHTS>; 4]>
+    pub(crate) fn four<'v>(
+        &self,
+        numbers: &[u16; 4],
+        room: &'v mut Option<[Vertex<LIGHTS>; 4]>,
+    ) -> Option<[&'v Vertex<LIGHTS>; 4]>
     where
         'f: 'v,
     {
