@@ -103,11 +103,11 @@ impl Active {
         let course = course.ending([turn == end, second.pixel().y == end]);
         (self.course, self.turn) = (course, turn as u16);
         let is_left = course.is(Course::LEFT);
-        self.side(is_left).join(top, first, start);
-        self.side(!is_left).join(top, if course.goes_on() { last } else { second }, start);
+        self.side(is_left).set(top, first, start);
+        self.side(!is_left).set(top, if course.goes_on() { last } else { second }, start);
         self.diagonal.set_beyond(!(course.is(Course::BEGINS) && course.is(Course::LEFT)));
         if is_pair && !course.is(Course::BEGINS) {
-            self.diagonal.join(top, if course.is(Course::ENDS_AFTER) { second } else { last }, start);
+            self.diagonal.set(top, if course.is(Course::ENDS_AFTER) { second } else { last }, start);
         }
         if turn <= start {
             self.bend(line.into(), geometry);
@@ -215,9 +215,9 @@ impl Active {
         (self.lower, self.course) = ([b, c, c], course.next());
         let turn = next.pixel().y;
         self.turn = turn as u16;
-        self.side(course.is(Course::LEFT)).join(here, if course.goes_on() { next } else { last }, line);
+        self.side(course.is(Course::LEFT)).set(here, if course.goes_on() { next } else { last }, line);
         if course.is(Course::BEGINS) {
-            self.diagonal.join(here, if course.is(Course::ENDS_AFTER) { next } else { last }, line);
+            self.diagonal.set(here, if course.is(Course::ENDS_AFTER) { next } else { last }, line);
         } else if course.is(Course::ENDS) {
             self.diagonal.set_beyond(!course.is(Course::LEFT));
         }

@@ -26,11 +26,15 @@ impl Edge {
     /// An empty edge at pixel 0.
     pub const NONE: Self = Self { at: 0, step: 0 };
 
-    /// Becomes the edge from `top` down to `bottom`, on line `line`, which must not begin above `top`.
+    /// Becomes the edge from `top` down to `bottom`, on line `line`, which must not begin above `top`; if it ends above the line's
+    /// centre, stays what it is.
     #[inline(never)]
     pub fn set<const LIGHTS: usize>(&mut self, top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) {
         let (top, bottom) = (top.point(), bottom.point());
         let (dx, dy, down) = (bottom.x - top.x, bottom.y - top.y, center(line).wrapping_sub(top.y));
+        if down >= dy {
+            return;
+        }
         if is_long(dx, dy, down) {
             return self.set_long(top.x, dx, dy, down);
         }
@@ -41,14 +45,6 @@ impl Edge {
         let part = high * down + ((low * down) >> 16);
         self.at = (i64::from(x) << 40).wrapping_add(i64::from(part) << 24).wrapping_sub(1);
         self.step = (i64::from((whole << 16) + high as i32) << 32) + (i64::from(low) << 16);
-    }
-
-    /// The same, if it crosses the line; if it ends above, it stays what it is.
-    #[inline(always)]
-    pub(crate) fn join<const LIGHTS: usize>(&mut self, top: &Vertex<LIGHTS>, bottom: &Vertex<LIGHTS>, line: i32) {
-        if line < bottom.pixel().y {
-            self.set(top, bottom, line);
-        }
     }
 
     /// The same for edges of 128 pixels and more, in 64 bits.
@@ -115,25 +111,25 @@ const fn is_long(dx: i32, dy: i32, down: i32) -> bool {
     ((dx + (1 << 15)) as u32 >> 16) | (dy as u32 >> 15) | (down as u32 >> 15) != 0
 }
 
-/// Those of a number of 15 bits, 0 counting as 1; looked up, as Cortex-M0+ would have to call a function for an instruction that
-/// it lacks.
+/// What makes bit 14 the highest one of a number of 15 bits, 0 counting as 1, by a product; looked up, as Cortex-M0+ would have to
+/// call a function for an instruction that it lacks.
 #[inline(always)]
-fn leading_zeros(d: u32) -> u32 {
-    static ZEROS: [u8; 256] = {
-        let mut zeros = [0; 256];
+fn power(d: u32) -> u32 {
+    static POWERS: [u8; 256] = {
+        let mut powers = [0; 256];
         let mut i = 1_u32;
         while i < 256 {
             #[expect(clippy::indexing_slicing, reason = "i < 256, evaluated by the compiler")]
             {
-                zeros[i as usize] = (i << 7).leading_zeros() as u8;
+                powers[i as usize] = (1 << (i << 7).leading_zeros() >> 17) as u8;
             }
             i += 1;
         }
-        zeros
+        powers
     };
-    match ZEROS.get((d >> 7) as usize) {
-        Some(zeros) if *zeros > 0 => u32::from(*zeros),
-        _ => small(d),
+    match d >> 7 {
+        0 => small(d),
+        high => POWERS.get(usize::from(high as u8)).map_or(0, |power| u32::from(*power)),
     }
 }
 
@@ -141,18 +137,16 @@ fn leading_zeros(d: u32) -> u32 {
 #[cold]
 #[inline(never)]
 const fn small(d: u32) -> u32 {
-    (d | 1).leading_zeros()
+    1 << (d | 1).leading_zeros() >> 17
 }
 
 /// Floor of `n/d`, and two more digits of 16 bits, in all less than 2/2³² too small; n in 16 bits, d in 15, 0 giving anything.
 #[inline]
 fn divide(n: i32, d: u32) -> (i32, [u32; 2]) {
-    let zeros = leading_zeros(d);
-    // With its highest bit in place 14.
-    let shift = zeros.wrapping_sub(17);
-    let divisor = d.wrapping_shl(shift);
+    let power = power(d);
+    let divisor = d.wrapping_mul(power);
     let inverse = rough(divisor);
-    let mut quotient = (n.wrapping_mul((inverse >> 2) as i32) >> 16) >> (31 - zeros);
+    let mut quotient = (n.wrapping_mul((inverse >> 2) as i32) >> 16).wrapping_mul(power as i32) >> 14;
     let mut rest = n.wrapping_sub(quotient.wrapping_mul(d as i32)) as u32;
     if rest >= d {
         // One too small or one too large.
@@ -164,7 +158,7 @@ fn divide(n: i32, d: u32) -> (i32, [u32; 2]) {
             rest = rest.wrapping_add(d);
         }
     }
-    let rest = rest.wrapping_shl(shift);
+    let rest = rest.wrapping_mul(power);
     let mut high = rest.wrapping_mul(inverse) >> 16;
     let mut rest = (rest << 16).wrapping_sub(high.wrapping_mul(divisor));
     if rest >= divisor {
