@@ -72,7 +72,8 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
     pub(crate) fn see(&mut self, spans: &[Span], slots: &mut [Active; ACTIVE]) {
         self.spans += spans.len() as u16;
         for span in spans {
-            if span.is_empty() {
+            // In pixels of the row, as whoever takes it asks for them: known to be in order, they are not compared again.
+            if span.range().is_empty() {
                 self.skip();
                 continue;
             }
@@ -81,36 +82,39 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
             }
             let slot = usize::from(span.slot());
             let Some(active) = slots.get_mut(slot) else { break };
-            if S::BY_PAIR && active.sharing == Sharing::Unknown {
-                self.share(slot, active);
-            }
-            let (start, middle, end) = (span.start(), i32::from(active.middle()), span.end());
-            if S::BY_PAIR && !T::APART && active.sharing == Sharing::Shared || middle >= end {
+            // Most that are shared are known to be.
+            let is_shared = S::BY_PAIR
+                && (active.sharing == Sharing::Shared || active.sharing == Sharing::Unknown && self.share(slot, active));
+            let Range { start, end } = span.range();
+            let middle = usize::from(active.middle().max(0) as u16);
+            if !T::APART && is_shared || middle >= end {
                 self.show::<0>(*span, slot, active);
                 continue;
             }
+            let mut from = start;
             if middle > start {
                 self.spans += 1;
-                self.show::<0>(span.with(start, middle), slot, active);
+                self.show::<0>(span.with(start as i32, middle as i32), slot, active);
+                from = middle;
             }
-            self.show::<1>(span.with(middle.max(start), end).right(), slot, active);
+            self.show::<1>(span.with(from as i32, end as i32).right(), slot, active);
         }
     }
 
-    /// Sets up one facet for both triangles of a pair, if that is enough.
+    /// Sets up one facet for both triangles of a pair, if that is enough; whether it is.
     #[inline(never)]
-    fn share(&mut self, slot: usize, active: &mut Active) {
+    fn share(&mut self, slot: usize, active: &mut Active) -> bool {
         active.sharing = Sharing::Apart;
         let mut room = None;
         let pair = active.pair().and_then(|first| self.picture.pair(first, &mut room));
         let surface = Surface { material: self.material, intensities: self.picture.intensities };
         let facet = pair.and_then(|pair| S::pair(&pair, &surface));
-        if let (Some(facet), Some(facets)) = (facet, self.facets.get_mut(slot)) {
-            active.sharing = Sharing::Shared;
-            *facets = [facet; 2];
-            self.made += 1;
-            active.facets = active.ids().map(|id| self.to.keep(&facet, id));
-        }
+        let (Some(facet), Some(facets)) = (facet, self.facets.get_mut(slot)) else { return false };
+        active.sharing = Sharing::Shared;
+        *facets = [facet; 2];
+        self.made += 1;
+        active.facets = active.ids().map(|id| self.to.keep(&facet, id));
+        true
     }
 
     /// Hands on a span of one triangle, or of a pair that shares a facet, in that slot.

@@ -26,7 +26,7 @@ impl<'r, P: Ink> Row<'r, P> {
             self.fill(start);
         }
         self.from = end;
-        self.pixels.get_mut(start..)?.get_mut(..end.wrapping_sub(start))
+        self.pixels.get_mut(..end)?.get_mut(start..)
     }
 
     /// Stores what is left.
