@@ -121,6 +121,8 @@ const fn parabolas(exponent: u16) -> [PiecewisePower; 2] {
 /// static COPPER: Material = Material::new(Color::rgb(0.85, 0.45, 0.20)).specular(0.5).exponent(32);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+// In this order: a Cortex-M0+ reads what is short, and finds the ramp that most pixels are of, faster near the beginning.
+#[repr(C)]
 pub struct Material {
     pub(crate) base: Color,
     pub(crate) highlight: Color,
@@ -128,25 +130,26 @@ pub struct Material {
     pub(crate) ambient: u16,
     pub(crate) diffuse: u16,
     pub(crate) specular: u16,
-    pub(crate) double_sided: bool,
-    pub(crate) plain: bool,
     /// Q8: 256 hides all that is behind.
     pub(crate) opacity: u16,
-    pub(crate) power: Power,
-    /// The same power as parabolas, refit and as printed.
-    pub(crate) parabolas: [PiecewisePower; 2],
+    /// The share of diffuse light in what a light of one gives at most, by luma, Q15; specular light has the rest.
+    pub(crate) share: u16,
+    pub(crate) double_sided: bool,
+    pub(crate) plain: bool,
+    /// Its first and last number in a palette.
+    pub(crate) colors: [u8; 2],
     /// Rgb565 of the ambient and diffuse light alone, in the middle of 256 equal steps of the diffuse intensity up to two.
     pub(crate) ramp: [u16; Self::STEPS],
-    /// The same with four bits more for each channel and half a level for rounding, see [`Material::SPREAD`].
+    pub(crate) power: Power,
+    /// The ramp with four bits more for each channel and half a level for rounding, see [`Material::SPREAD`].
     pub(crate) dull: [u32; Self::STEPS],
     /// The highlight in 256 equal steps of the specular intensity up to two, likewise.
     pub(crate) gloss: [u32; Self::STEPS],
-    /// Its first and last number in a palette.
-    pub(crate) colors: [u8; 2],
-    /// The share of diffuse light in what a light of one gives at most, by luma, Q15; specular light has the rest.
-    pub(crate) share: u16,
-    /// For 256 equal steps of that light the place, 0 to 255, on the ramp of [`at_angle`](Self::at_angle) that is as bright.
+    /// For 256 equal steps of what a light of one gives at most the place, 0 to 255, on the ramp of [`at_angle`](Self::at_angle)
+    /// that is as bright.
     pub(crate) places: [u8; Self::STEPS],
+    /// The power as parabolas, refit and as printed.
+    pub(crate) parabolas: [PiecewisePower; 2],
 }
 
 impl Material {
