@@ -108,12 +108,16 @@ impl<'a, 'f, 'm, T: Take<'m, S, LIGHTS, L>, S: Shade<LIGHTS, L>, const ACTIVE: u
         let mut room = None;
         let pair = active.pair().and_then(|first| self.picture.pair(first, &mut room));
         let surface = Surface { material: self.material, intensities: self.picture.intensities };
-        let facet = pair.and_then(|pair| S::pair(&pair, &surface));
-        let (Some(facet), Some(facets)) = (facet, self.facets.get_mut(slot)) else { return false };
+        let (Some(pair), Some([facet, other])) = (pair, self.facets.get_mut(slot)) else { return false };
+        if !S::pair(&pair, &surface, facet) {
+            return false;
+        }
         active.sharing = Sharing::Shared;
-        *facets = [facet; 2];
+        if T::APART {
+            *other = *facet;
+        }
         self.made += 1;
-        active.facets = active.ids().map(|id| self.to.keep(&facet, id));
+        active.facets = active.ids().map(|id| self.to.keep(facet, id));
         true
     }
 

@@ -11,7 +11,7 @@ macro_rules! every_method {
             "duff-differences" beamshade::DuffDifferences,
             "duff-barycentric" beamshade::DuffBarycentric,
             "hybrid" beamshade::Hybrid,
-            "hybrid-6" beamshade::Hybrid<6>,
+            "hybrid-8" beamshade::Hybrid<8>,
             "quadratic-dots" beamshade::QuadraticDots,
             "bishop-weimer" beamshade::BishopWeimer,
             "angular-trapezia" beamshade::AngularTrapezia,

@@ -48,7 +48,7 @@ fn same<S: Shade<1>>(mesh: &Mesh<'_>) {
 fn a_lean_frame_shows_the_same_pixels() {
     let quantized = teapot();
     same::<DuffBarycentric>(&quantized.mesh());
-    same::<Hybrid<6>>(&quantized.mesh());
+    same::<Hybrid<8>>(&quantized.mesh());
 }
 
 /// The memory that it is for: less than a third of what a frame takes that stores the teapot's vertices.

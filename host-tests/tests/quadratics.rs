@@ -179,7 +179,7 @@ fn the_standard_scene_by_the_hybrid() {
             *least = least.min(Measures::between(&reference, &drawn, &scene.triangles()).psnr_db);
         }
     }
-    assert!(least[0] >= 53.5 && least[1] >= 50.3, "{least:?}");
+    assert!(least[0] >= 54.0 && least[1] >= 51.1, "{least:?}");
 }
 
 /// What hides the left part of a triangle does not change the rest: spans may start anywhere.

@@ -98,11 +98,11 @@ pub trait Shade<const LIGHTS: usize, L: LightSource = Light> {
     /// Sets up a triangle.
     fn facet(triangle: &Triangle<'_, LIGHTS, L>, surface: &Surface<'_, LIGHTS>) -> Self::Facet;
 
-    /// Sets up one facet for two triangles that share an edge, if that is as good as one for each; asked once, when either is first
-    /// seen. They then make one span where they meet.
+    /// Sets up one facet for two triangles that share an edge, if that is as good as one for each; whether it is, else the facet may be
+    /// anything. Asked once, when either is first seen. They then make one span where they meet.
     #[inline]
-    fn pair(_pair: &Pair<'_, LIGHTS>, _surface: &Surface<'_, LIGHTS>) -> Option<Self::Facet> {
-        None
+    fn pair(_pair: &Pair<'_, LIGHTS>, _surface: &Surface<'_, LIGHTS>, _facet: &mut Self::Facet) -> bool {
+        false
     }
 
     /// The registers at pixel x of line y.

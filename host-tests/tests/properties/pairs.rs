@@ -16,7 +16,7 @@ use crate::cases;
 use crate::scene::{scenes, Scene, Shape};
 use crate::visibility::drawn;
 
-const LEVELS: u32 = 6;
+const LEVELS: u32 = 8;
 type Method = Hybrid<LEVELS>;
 
 /// The same with a triangle of no area after each, so that none follows another one with the same corners.
@@ -75,6 +75,13 @@ fn row<T>(width: u32, shade: impl FnOnce(&mut [Gray8]) -> T) -> (Vec<u8>, T) {
     (row.iter().map(GrayColor::luma).collect(), told)
 }
 
+/// By how many levels pixels differ at most if no triangles are kept as one.
+fn farthest(scene: &Scene) -> u32 {
+    let ((shared, _), (expected, _)) = (scene.show(rows), apart(scene).show(rows));
+    let differences = shared.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| a.abs_diff(*b));
+    differences.max().unwrap_or(0).into()
+}
+
 proptest! {
     #![proptest_config(cases(1024))]
 
@@ -93,10 +100,17 @@ proptest! {
     #![proptest_config(cases(256))]
 
     #[test]
+    fn one_facet_for_two_dull_triangles_is_within_the_tolerance(mut scene in sheets()) {
+        for (shape, _) in &mut scene.objects {
+            shape.parts = vec![[32, 1]];
+        }
+        prop_assert!(farthest(&scene) <= LEVELS);
+    }
+
+    /// Their highlight may be off from its plane by twice as much for its bows, and as much again where diagonals pass each other by.
+    #[test]
     fn one_facet_for_two_triangles_is_within_the_tolerance(scene in sheets()) {
-        let ((shared, _), (expected, _)) = (scene.show(rows), apart(&scene).show(rows));
-        let differences = shared.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| a.abs_diff(*b));
-        prop_assert!(differences.max().unwrap_or(0) <= LEVELS as u8);
+        prop_assert!(farthest(&scene) <= 5 * LEVELS);
     }
 
     #[test]
